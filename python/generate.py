@@ -224,6 +224,12 @@ def argument(task: str, name: str, schema: dict[str, Any], defs: dict[str, Any])
     return text.replace(" | None", "").replace("list[", "Sequence[")
 
 
+def passed(key: str, schema: dict[str, Any]) -> str:
+    """How an argument is handed on: one source stands for a list of one."""
+    several = key in SOURCES | {"results"} and schema.get("type") == "array"
+    return f"several({attribute(key)})" if several else attribute(key)
+
+
 def default(schema: dict[str, Any], name: str) -> str:
     value = True if name == "view" else schema.get("default")
     if isinstance(value, list):
@@ -257,11 +263,11 @@ def task(stem: str) -> str:
     text = [f"def {name}(", *lines, f") -> {result}:", f'    """{SUMMARIES[name]}', ""]
     text += ["    Parameters", "    ----------", *about]
     text += ["    progress : callable or bool, optional", "        Called with stage, items done, their number and unit; ``True`` for a bar of tqdm."]
-    text += ["", "    Returns", "    -------", f"    {result}", *EXAMPLES.get(name, []), '    """']
+    text += ["", "    Returns", "    -------", f"    {result}", *example(name), '    """']
     origin = "_run" if name == "plan_init" else f"documents.{stem}"
     text.append(f"    from .{origin} import {result}")
     text.append("")
-    text += ["    given: dict[str, object] = {", *(f'        "{key}": {attribute(key)},' for key in given), "    }"]
+    text += ["    given: dict[str, object] = {", *(f'        "{key}": {passed(key, schema["properties"][key])},' for key in given), "    }"]
     text.append(f'    return run("{name}", {result}, given, progress, unknown)')
     return "\n".join(text)
 
@@ -288,15 +294,36 @@ SUMMARIES = {
     "trend": "One plan over many parts: course, spread, capability.",
 }
 EXAMPLES = {
-    "check": ["", "    Examples", "    --------", "    >>> import trueness as t", '    >>> found = t.check("corpus/bunny/zipper_res4.ply")', "    >>> found.facets, found.sound, found.exit_status", "    (948, False, 1)", '    >>> found.defects["holes"].count', "    4"],
-    "compare": ["", "    Examples", "    --------", "    >>> import trueness as t", '    >>> scan, nominal = "corpus/bunny/zipper_res3.ply", "corpus/bunny/zipper_res4.ply"', "    >>> found = t.compare(scan, nominal, tolerance=5, inside=90)", "    >>> found.comparisons[0].deviation.all.count, found.verdict", "    (1889, 'pass')"],
-    "fit": ["", "    Examples", "    --------", "    >>> import trueness as t", '    >>> found = t.fit([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]], shape="circle")', "    >>> round(found.parameters.radius, 12)", "    1.0"],
+    "check": """
+>>> found = t.check("corpus/bunny/zipper_res4.ply")
+>>> found.facets, found.sound, found.exit_status
+(948, False, 1)
+>>> found.defects["holes"].count
+3""",
+    "compare": """
+>>> scan, nominal = "corpus/bunny/zipper_res3.ply", "corpus/bunny/zipper_res4.ply"
+>>> found = t.compare(scan, nominal, tolerance=5, inside=90)
+>>> found.comparisons[0].deviation.all.count, found.verdict
+(1889, 'pass')""",
+    "fit": """
+>>> found = t.fit([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]], shape="circle")
+>>> round(found.parameters["radius"], 12)
+1.0""",
 }
+
+
+def example(name: str) -> list[str]:
+    """The section of the docstring with an example, where there is one."""
+    lines = EXAMPLES.get(name, "").split("\n")[1:]
+    head = ["", "Examples", "--------", ">>> import trueness as t"] if lines else []
+    return [f"    {line}" if line else "" for line in [*head, *lines]]
+
+
 TASKS_HEAD = '''from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal, Never
 
 from ._progress import Progress
-from ._run import Path, Source, Text, run
+from ._run import Path, Source, Text, run, several
 
 if TYPE_CHECKING:
     from ._document import TaskDocument

@@ -101,4 +101,4 @@ def rod_distance(points: NDArray[np.float64]) -> NDArray[np.float64]:
     beside = np.hypot(points[:, 0], points[:, 1]) - 2
     above = np.maximum(-points[:, 2], points[:, 2] - 3)
     outside = np.hypot(np.maximum(beside, 0), np.maximum(above, 0))
-    return outside + np.minimum(np.maximum(beside, above), 0)
+    return np.asarray(outside + np.minimum(np.maximum(beside, above), 0))

@@ -45,7 +45,8 @@ def test_any_order(bunny: t.Mesh, points: NDArray[np.float64]) -> None:
 
 
 def test_no_points(cube: t.Mesh, rod: t.Model) -> None:
-    for nothing in (np.empty((0, 3)), []):
+    nothings: tuple[NDArray[np.float64] | list[float], ...] = (np.empty((0, 3)), [])
+    for nothing in nothings:
         assert cube.signed_distance(nothing).shape == (0,)
         assert cube.closest(nothing).point.shape == (0, 3)
         assert rod.signed_distance(nothing).shape == (0,)
@@ -74,8 +75,8 @@ def test_the_row_of_a_bad_argument_is_named(cube: t.Mesh) -> None:
     with pytest.raises(ValueError, match="faces: it holds float64, give whole numbers"):
         t.Mesh(np.eye(3), [[0.0, 1, 2]])
     with pytest.raises(ValueError, match="vertices, row 1: "):
-        t.Mesh([[0, 0, 0], [np.inf, 0, 0], [0, 1, 0]], [[0, 1, 2]]).closest([[0, 0, 0]])
-    far = [[0, 0, 0], [np.nan, 0, 0], [1e200, 0, 0]]
+        t.Mesh(np.array([[0, 0, 0], [np.inf, 0, 0], [0, 1, 0]]), [[0, 1, 2]]).closest([[0, 0, 0]])
+    far = np.array([[0, 0, 0], [np.nan, 0, 0], [1e200, 0, 0]])
     with pytest.raises(ValueError, match=r"points, row 2: point 2 has a coordinate"):
         cube.signed_distance(far)
     with pytest.raises(ValueError, match="sign: ‘sidewise’ is none of auto, pseudonormal, winding, none"):

@@ -32,7 +32,7 @@ def test_trimesh(bunny: t.Mesh, points: Points) -> None:
 
 
 def test_open3d(bunny: t.Mesh, points: Points) -> None:
-    pytest.importorskip("open3d")
+    pytest.importorskip("open3d", exc_type=ImportError)
     same(bunny, t.from_open3d(t.to_open3d(bunny)))
     again = t.from_open3d(t.to_open3d(t.Cloud(points, points)))
     same(t.Cloud(points), again)
@@ -92,7 +92,7 @@ def test_the_names_of_open3d_by_themselves(cube: t.Mesh) -> None:
 
 
 def test_the_names_of_open3d_beside_it(bunny: t.Mesh) -> None:
-    open3d: Any = pytest.importorskip("open3d")
+    open3d: Any = pytest.importorskip("open3d", exc_type=ImportError)
     theirs, own = open3d.t.geometry.RaycastingScene(), as_open3d.RaycastingScene()
     mesh = open3d.t.geometry.TriangleMesh.from_legacy(t.to_open3d(bunny))
     theirs.add_triangles(mesh)

@@ -13,6 +13,7 @@ import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 from multiprocessing.connection import Connection
+from typing import Any
 
 import numpy as np
 import pytest
@@ -58,9 +59,10 @@ def test_many_threads_ask_one_mesh(points: NDArray[np.float64]) -> None:
     mesh = sphere(60)
     expected = sphere(60).signed_distance(points)
     with ThreadPoolExecutor(8) as pool:
-        found = list(pool.map(lambda _: mesh.signed_distance(points), range(32)))
-        checks = list(pool.map(lambda _: t.check(mesh).sound, range(8)))
-    assert all(np.array_equal(values, expected) for values in found) and len(set(checks)) == 1
+        found = [pool.submit(mesh.signed_distance, points) for _ in range(32)]
+        checks = [pool.submit(t.check, mesh) for _ in range(8)]
+    assert all(np.array_equal(one.result(), expected) for one in found)
+    assert len({one.result().sound for one in checks}) == 1
 
 
 def ask(sender: Connection, mesh: t.Mesh, points: NDArray[np.float64]) -> None:
@@ -73,7 +75,7 @@ def test_processes(method: str, bunny: t.Mesh, points: NDArray[np.float64]) -> N
     if method not in multiprocessing.get_all_start_methods():
         pytest.skip(f"there is no {method} here")
     expected = bunny.signed_distance(points)
-    context = multiprocessing.get_context(method)
+    context: Any = multiprocessing.get_context(method)
     receiver, sender = context.Pipe(duplex=False)
     process = context.Process(target=ask, args=(sender, bunny, points))
     process.start()
@@ -111,13 +113,12 @@ except KeyboardInterrupt:
 
 @pytest.mark.skipif(os.name != "posix", reason="signals")
 def test_the_interrupt_key_is_heard() -> None:
-    process = subprocess.Popen([sys.executable, "-c", INTERRUPTED], stdout=subprocess.PIPE, text=True, cwd=ROOT)
-    assert process.stdout is not None and process.stdout.readline() == "ready\n"
-    time.sleep(0.4)
-    sent = time.time()
-    process.send_signal(signal.SIGINT)
-    words = process.stdout.readline().split()
-    process.wait()
+    with subprocess.Popen([sys.executable, "-c", INTERRUPTED], stdout=subprocess.PIPE, text=True, cwd=ROOT) as process:
+        assert process.stdout is not None and process.stdout.readline() == "ready\n"
+        time.sleep(0.4)
+        sent = time.time()
+        process.send_signal(signal.SIGINT)
+        words = process.stdout.readline().split()
     assert words[0] == "stopped", words
     # Two tenths of a second where the machine has nothing else to do.
     assert float(words[1]) - sent < 0.2 * max(1.0, os.getloadavg()[0] / (os.cpu_count() or 1))
@@ -126,7 +127,11 @@ def test_the_interrupt_key_is_heard() -> None:
 def test_progress_is_told() -> None:
     mesh, points = sphere(100), np.random.default_rng(1).uniform(-150, 150, (1_500_000, 3))
     told: list[tuple[str, int, int | None, str]] = []
-    mesh.signed_distance(points, progress=lambda *words: told.append(words))
+
+    def hear(stage: str, done: int, total: int | None, unit: str) -> None:
+        told.append((stage, done, total, unit))
+
+    mesh.signed_distance(points, progress=hear)
     assert told[-1] == ("measuring", len(points), len(points), "points")
     done = [words[1] for words in told if words[0] == "measuring"]
     assert done == sorted(done)

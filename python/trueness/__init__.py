@@ -10,7 +10,7 @@ of threads.
 >>> found
 Deviation(1887 of 1887 points, rms 1.376 mm)
 >>> round(found.within(5), 3)
-0.995
+0.998
 """
 
 from __future__ import annotations

@@ -1,5 +1,8 @@
 """Deviations of points from a mesh or a CAD model, and what is told of them."""
 
+# What matplotlib says of its types is incomplete.
+# pyright: reportUnknownMemberType=false
+
 from __future__ import annotations
 
 import json
@@ -14,14 +17,13 @@ from numpy.typing import NDArray
 from . import _trueness
 from ._document import Verdict, row
 from ._errors import UsageError
-from ._geometry import Cloud, Floats, Mesh, Model, Sign, Tolerance
+from ._geometry import Cloud, Floats, Mesh, Model, Reference, Sign, Tolerance
 from ._progress import Progress, callback
 
 if TYPE_CHECKING:
     import pandas
     from matplotlib.axes import Axes
 
-    from ._geometry import _Reference  # pyright: ignore[reportPrivateUsage]
     from .documents._common import Histogram
     from .documents.compare import BySide, CompareDocument
 
@@ -50,7 +52,7 @@ class Deviation:
 
     def __init__(
         self,
-        reference: _Reference,
+        reference: Reference[_trueness.Mesh | _trueness.Model],
         points: Floats,
         *,
         tolerance: Tolerance | None = None,
@@ -63,10 +65,10 @@ class Deviation:
         self.points = points
         self.tolerance = _limits(tolerance)
         self._asked = (sign, max_distance, skip_boundary)
-        core = reference._core  # pyright: ignore[reportPrivateUsage]
-        self.values: Floats = core.deviations(points, sign, max_distance, skip_boundary, callback(progress))
+        told = callback(progress)
+        self.values: Floats = reference._core.deviations(points, sign, max_distance, skip_boundary, told)
         self.values.setflags(write=False)
-        self.sign_method, self.sign_reason = reference._sign(sign)  # pyright: ignore[reportPrivateUsage]
+        self.sign_method, self.sign_reason = reference.sign_method(sign)
 
     def __len__(self) -> int:
         return len(self.values)
@@ -205,7 +207,7 @@ class Deviation:
         return table + text.format(len(table.encode()))
 
 
-def _source(reference: _Reference) -> Mesh | Model:
+def _source(reference: object) -> Mesh | Model:
     if isinstance(reference, (Mesh, Model)):
         return reference
     raise UsageError("reference: give a Mesh or a Model")

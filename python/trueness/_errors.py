@@ -52,3 +52,8 @@ class CancelledError(TruenessError):
 
 class InternalError(TruenessError):
     """A fault of the package itself: please report it with what caused it (exit status 4)."""
+
+
+# Their name is that by which users know them.
+for _error in (TruenessError, UsageError, UnanswerableError, FileError, MissingFileError, CancelledError, InternalError):
+    _error.__module__ = "trueness"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Generic, Literal, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -60,10 +60,13 @@ class ClosestOnModel(NamedTuple):
     face: NDArray[np.int64]
 
 
-class _Reference:
+Core = TypeVar("Core", bound="_trueness.Mesh | _trueness.Model", covariant=True)
+
+
+class Reference(Generic[Core]):
     """What points are measured from."""
 
-    _core: _trueness.Mesh | _trueness.Model
+    _core: Core
 
     def signed_distance(
         self,
@@ -131,8 +134,8 @@ class _Reference:
         >>> found = cube.deviation([[0, 0, 0.52], [0, 0, 0.7]], tolerance=0.1)
         >>> found.values.round(6)
         array([0.02, 0.2 ])
-        >>> found.within(0.1), found.verdict
-        (0.5, 'fail')
+        >>> found.within(0.1), found.verdict  # two points cover too little of the cube
+        (0.5, 'undecided')
         """
         from ._deviation import Deviation
 
@@ -146,14 +149,12 @@ class _Reference:
             progress=progress,
         )
 
-    def _sign(self, sign: Sign) -> tuple[str, str]:
+    def sign_method(self, sign: Sign = "auto") -> tuple[str, str]:
+        """The method by which inside and outside are told apart, and why it is that one."""
         raise NotImplementedError
 
-    def _bytes(self) -> bytes:
-        raise NotImplementedError
 
-
-class Mesh(_Reference):
+class Mesh(Reference[_trueness.Mesh]):
     """A triangle mesh, millimeters. It never changes; its search tree is built at the first question and kept.
 
     Parameters
@@ -169,8 +170,6 @@ class Mesh(_Reference):
     >>> mesh.closest([[1, 2, 5]]).distance
     array([5.])
     """
-
-    _core: _trueness.Mesh
 
     def __init__(self, vertices: ArrayLike, faces: ArrayLike) -> None:
         self._core = _trueness.Mesh(vertices, faces)
@@ -215,9 +214,6 @@ class Mesh(_Reference):
 
     def sign_method(self, sign: Sign = "auto") -> tuple[str, str]:
         """The method by which inside and outside are told apart, and why it is that one."""
-        return self._core.sign(sign)
-
-    def _sign(self, sign: Sign) -> tuple[str, str]:
         return self._core.sign(sign)
 
     def closest(
@@ -311,15 +307,13 @@ class Cloud:
         return f"Cloud({len(self.points)} points{', normals' if self.normals is not None else ''})"
 
 
-class Model(_Reference):
+class Model(Reference[_trueness.Model]):
     """A CAD model of a STEP or IGES file: distances are those of its exact faces.
 
     Parameters
     ----------
     path : path-like
     """
-
-    _core: _trueness.Model
 
     def __init__(self, path: str | os.PathLike[str], *, progress: Progress = None) -> None:
         with open(path, "rb") as file:
@@ -354,7 +348,7 @@ class Model(_Reference):
     @property
     def mesh(self) -> Mesh:
         """The mesh that draws the faces. Distances do not come from it."""
-        return Mesh._of(self._core.mesh, [])  # pyright: ignore[reportPrivateUsage]
+        return Mesh._of(self._core.mesh, [])
 
     @property
     def bounds(self) -> Floats:
@@ -365,7 +359,8 @@ class Model(_Reference):
         """The nearest place of the exact faces for each point."""
         return ClosestOnModel(*self._core.closest(points, callback(progress)))
 
-    def _sign(self, sign: Sign) -> tuple[str, str]:
+    def sign_method(self, sign: Sign = "auto") -> tuple[str, str]:
+        """The method by which inside and outside are told apart, and why it is that one."""
         if sign == "none":
             return "none", "asked for"
         return "normal", "the side of the faces' normals"
@@ -427,9 +422,9 @@ def read(
     taken = {name: value for name, value in (("units", units), ("format", format)) if value is not None}
     content, warnings = _trueness.read(path, json.dumps(taken), callback(progress))
     if isinstance(content, bytes):
-        return Model._of(os.fspath(path), content, progress)  # pyright: ignore[reportPrivateUsage]
+        return Model._of(os.fspath(path), content, progress)
     if isinstance(content, _trueness.Mesh):
-        return Mesh._of(content, warnings)  # pyright: ignore[reportPrivateUsage]
+        return Mesh._of(content, warnings)
     cloud = Cloud(content)
     cloud.warnings = warnings
     return cloud

@@ -6,7 +6,7 @@ import json
 import os
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
-from typing import TypeAlias, TypeVar
+from typing import TypeAlias, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,7 +56,14 @@ def run(
     memory: dict[str, bytes] = {}
     request = {name: _value(name, value, memory) for name, value in given.items() if value is not None}
     answer = _trueness.run(task, json.dumps(request), memory, callback(progress))
-    return document._of(answer)  # pyright: ignore[reportPrivateUsage]
+    return document._of(answer)
+
+
+def several(values: object) -> list[object]:
+    """Sources as a list; one by itself is a list of one."""
+    if isinstance(values, (list, tuple)) and not _holds_rows(cast("object", values)):
+        return list(cast("Sequence[object]", values))
+    return [values]
 
 
 def _value(name: str, value: object, memory: dict[str, bytes]) -> Json:
@@ -64,10 +71,9 @@ def _value(name: str, value: object, memory: dict[str, bytes]) -> Json:
     if value is None or isinstance(value, (bool, str)):
         return value
     if isinstance(value, os.PathLike):
-        path: object = os.fspath(value)
-        return str(path)
+        return os.fsdecode(cast("os.PathLike[str]", value))
     if isinstance(value, np.generic):
-        return _value(name, value.item(), memory)
+        return _value(name, cast("object", value.item()), memory)
     content = _bytes(name, value)
     if content is not None:
         memory[f"<{name}>"] = content
@@ -75,10 +81,9 @@ def _value(name: str, value: object, memory: dict[str, bytes]) -> Json:
     if isinstance(value, (int, float)):
         return repr(value) if name in TEXTS else value
     if isinstance(value, np.ndarray):
-        listed: object = value.tolist()
-        return _value(name, listed, memory)
+        return _value(name, cast("object", value.tolist()), memory)
     if isinstance(value, Sequence):
-        return _list(name, value, memory)
+        return _list(name, cast("Sequence[object]", value), memory)
     raise UsageError(f"{name}: a {type(value).__name__} is nothing that it takes")
 
 
@@ -91,7 +96,7 @@ FILES = {"measured", "reference", "references", "mesh", "input", "points", "file
 def _bytes(name: str, value: object) -> bytes | None:
     """The bytes of what stands for a file; None for other values."""
     if isinstance(value, (Mesh, Cloud, Model)):
-        return value._bytes()  # pyright: ignore[reportPrivateUsage]
+        return value._bytes()
     if isinstance(value, ProposedPlan):
         return value.text.encode()
     if isinstance(value, TaskDocument):
@@ -99,7 +104,7 @@ def _bytes(name: str, value: object) -> bytes | None:
     if name not in FILES:
         return None
     if isinstance(value, np.ndarray) or _holds_rows(value):
-        return Cloud(points_of(np.asarray(value)))._bytes()  # pyright: ignore[reportPrivateUsage]
+        return Cloud(points_of(np.asarray(value)))._bytes()
     return None
 
 
@@ -107,15 +112,18 @@ def _holds_rows(value: object) -> bool:
     """Whether it is a list of rows of numbers."""
     if not isinstance(value, Sequence) or not value:
         return False
-    rows: Sequence[object] = value
-    first = rows[0]
-    return isinstance(first, Sequence) and not isinstance(first, str) and bool(first) and isinstance(first[0], (int, float))
+    first = cast("Sequence[object]", value)[0]
+    if not isinstance(first, Sequence) or isinstance(first, str) or not first:
+        return False
+    return isinstance(cast("Sequence[object]", first)[0], (int, float))
 
 
 def _list(name: str, values: Sequence[object], memory: dict[str, bytes]) -> Json:
     if name in TEXTS:
         return ",".join(_signed(value) if isinstance(value, (int, float)) and name == "tolerance" else str(value) for value in values)
-    return [_item(f"{name} {i + 1}", name, value, memory) for i, value in enumerate(values)]
+    one = name.removesuffix("s")
+    shown = [one] if len(values) == 1 else [f"{one} {i + 1}" for i in range(len(values))]
+    return [_item(own, name, value, memory) for own, value in zip(shown, values, strict=True)]
 
 
 def _item(shown: str, name: str, value: object, memory: dict[str, bytes]) -> Json:

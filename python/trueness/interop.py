@@ -4,8 +4,13 @@ pandas, Polars, Arrow and DuckDB take a `trueness.Deviation` by the Arrow PyCaps
 ``polars.DataFrame(found)``.
 """
 
+# What other packages say of their types is incomplete.
+# pyright: reportUnknownMemberType=false, reportUnknownVariableType=false, reportUnknownArgumentType=false
+# pyright: reportMissingImports=false, reportUnknownParameterType=false
+
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -30,7 +35,7 @@ def to_trimesh(mesh: Mesh) -> trimesh.Trimesh:
 
 def from_trimesh(mesh: trimesh.Trimesh | trimesh.PointCloud) -> Mesh | Cloud:
     """A `trimesh.Trimesh`, or a `trimesh.PointCloud`."""
-    vertices = np.asarray(mesh.vertices, np.float64)
+    vertices: NDArray[np.float64] = np.asarray(mesh.vertices, np.float64)
     faces = getattr(mesh, "faces", None)
     return Cloud(vertices) if faces is None else Mesh(vertices, np.asarray(faces, np.int64))
 
@@ -51,10 +56,11 @@ def to_open3d(part: Mesh | Cloud) -> open3d.geometry.TriangleMesh | open3d.geome
 
 def from_open3d(part: open3d.geometry.TriangleMesh | open3d.geometry.PointCloud) -> Mesh | Cloud:
     """An `open3d.geometry.TriangleMesh` or `PointCloud`."""
+    values: Callable[[str], NDArray[np.float64]] = lambda name: np.asarray(getattr(part, name), np.float64)
     if hasattr(part, "triangles"):
-        return Mesh(np.asarray(part.vertices, np.float64), np.asarray(part.triangles, np.int64))
-    normals = np.asarray(part.normals, np.float64)
-    return Cloud(np.asarray(part.points, np.float64), normals if len(normals) else None)
+        return Mesh(values("vertices"), np.asarray(getattr(part, "triangles"), np.int64))
+    normals = values("normals")
+    return Cloud(values("points"), normals if len(normals) else None)
 
 
 def to_pyvista(part: Mesh | Cloud, **values: ArrayLike) -> pyvista.PolyData:
@@ -74,11 +80,12 @@ def to_pyvista(part: Mesh | Cloud, **values: ArrayLike) -> pyvista.PolyData:
 def from_pyvista(data: pyvista.PolyData) -> Mesh | Cloud:
     """A `pyvista.PolyData` of triangles, or of points alone."""
     points = np.asarray(data.points, np.float64)
-    if data.n_faces_strict == 0:
+    faces: NDArray[np.int64] = np.asarray(data.faces, np.int64)
+    if len(faces) == 0:
         return Cloud(points)
     if not data.is_all_triangles:
         raise UsageError("it has faces of other than three corners; call triangulate() first")
-    return Mesh(points, np.asarray(data.faces, np.int64).reshape(-1, 4)[:, 1:])
+    return Mesh(points, faces.reshape(-1, 4)[:, 1:])
 
 
 def to_meshio(part: Mesh | Cloud) -> meshio.Mesh:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal, Never
 
 from ._progress import Progress
-from ._run import Path, Source, Text, run
+from ._run import Path, Source, Text, run, several
 
 if TYPE_CHECKING:
     from ._document import TaskDocument
@@ -175,7 +175,7 @@ def check(
     >>> found.facets, found.sound, found.exit_status
     (948, False, 1)
     >>> found.defects["holes"].count
-    4
+    3
     """
     from .documents.check import CheckDocument
 
@@ -329,7 +329,7 @@ def compare(
 
     given: dict[str, object] = {
         "measured": measured,
-        "references": references,
+        "references": several(references),
         "units": units,
         "format": format,
         "columns": columns,
@@ -540,7 +540,7 @@ def fit(
     --------
     >>> import trueness as t
     >>> found = t.fit([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]], shape="circle")
-    >>> round(found.parameters.radius, 12)
+    >>> round(found.parameters["radius"], 12)
     1.0
     """
     from .documents.fit import FitDocument
@@ -644,7 +644,7 @@ def inspect(
 
     given: dict[str, object] = {
         "plan": plan,
-        "measured": measured,
+        "measured": several(measured),
         "places": places,
         "csv": csv,
         "junit": junit,
@@ -1163,7 +1163,7 @@ def trend(
     from .documents.trend import TrendDocument
 
     given: dict[str, object] = {
-        "results": results,
+        "results": several(results),
         "csv": csv,
     }
     return run("trend", TrendDocument, given, progress, unknown)

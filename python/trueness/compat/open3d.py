@@ -5,7 +5,7 @@ Answers are NumPy arrays of double precision where Open3D has tensors of single 
 
 from __future__ import annotations
 
-from typing import Protocol, TypedDict
+from typing import Protocol, TypedDict, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +14,7 @@ from .._errors import UsageError
 from .._geometry import Floats, Mesh
 
 
+@runtime_checkable
 class Tensor(Protocol):
     """A tensor of Open3D."""
 
@@ -112,8 +113,7 @@ class RaycastingScene:
 
 
 def _array(values: ArrayLike | Tensor) -> ArrayLike:
-    numpy = getattr(values, "numpy", None)
-    return numpy() if callable(numpy) else values  # type: ignore[return-value, no-any-return]
+    return values.numpy() if isinstance(values, Tensor) else values
 
 
 def _rows(points: ArrayLike | Tensor) -> tuple[Floats, tuple[int, ...]]:
