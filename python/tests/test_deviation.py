@@ -89,8 +89,8 @@ def test_tables(cube: t.Mesh, points: NDArray[np.float64]) -> None:
     pandas = pytest.importorskip("pandas")
     table = found.to_pandas()
     assert list(table.columns) == ["x", "y", "z", "deviation"]
-    np.testing.assert_array_equal(np.asarray(table["deviation"]), found.values)
     assert isinstance(table, pandas.DataFrame)
+    np.testing.assert_array_equal(np.asarray(table)[:, 3], found.values)
     arrow = pytest.importorskip("pyarrow")
     batch = arrow.record_batch(found)
     assert batch.schema.names == ["x", "y", "z", "deviation"]

@@ -70,7 +70,7 @@ def test_every_task(tmp_path: Path, bunny: t.Mesh, rod: t.Model, cube: t.Mesh) -
     assert len(sections.contours) == 1 and len(sections.contours[0].segments) == 4
     x, y = np.meshgrid(np.linspace(0, 4, 12), np.linspace(0, 4, 12))
     patch = np.stack([x.ravel(), y.ravel(), 0.1 * x.ravel() ** 2], axis=1)
-    fitted = t.surface(patch, degree="2x2", spans="2x2", fairness=0)
+    fitted = t.surface(patch, degree="2x2", spans="2x2", fairness=0, base="xy")
     assert fitted.deviation.rms is not None and fitted.deviation.rms < 1e-9
     curved = t.curvature(rod.mesh)
     assert curved.exit_status == 0 and curved.schema == "trueness/curvature/1"

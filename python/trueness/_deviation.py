@@ -8,7 +8,6 @@ from __future__ import annotations
 import json
 import os
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -152,7 +151,7 @@ class Deviation:
         """Writes the report (``.html``), the document (``.json``), or points with their deviations (``.csv``, ``.ply``,
         ``.parquet``, ``.npz``, ``.vtp``; points that are not finite are left out).
         """
-        ending = Path(path).suffix.lower()
+        ending = os.path.splitext(path)[1].lower()
         if ending in (".html", ".htm", ".json"):
             self.document.save(path)
         elif ending in POINT_FILES:

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import html
 import json
 import os
 import sys
-import tempfile
 from collections.abc import Iterator
-from difflib import get_close_matches
-from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Literal, Self, TypeAlias
 
 from ._errors import UsageError
@@ -50,6 +46,8 @@ class Record:
             known = _keys(type(self))
             if name in known:
                 return None
+            from difflib import get_close_matches
+
             nearest = get_close_matches(name, [*known, *self._data], 1)
             hint = f"; did you mean {nearest[0]!r}?" if nearest else ""
             raise AttributeError(f"{type(self).__name__} has no {name!r}{hint}")
@@ -165,7 +163,7 @@ class TaskDocument(Record):
 
     def save(self, path: str | os.PathLike[str], *, language: Language = "en") -> None:
         """Writes the document (``.json``) or the report (``.html``). The file appears whole or not at all."""
-        ending = Path(path).suffix.lower()
+        ending = os.path.splitext(path)[1].lower()
         if ending == ".json":
             whole_file(path, self._text.encode())
         elif ending in (".html", ".htm"):
@@ -185,20 +183,24 @@ class TaskDocument(Record):
 
 def row(name: str, value: str) -> str:
     """A row of a table of HTML."""
+    import html
+
     return f"<tr><th style='text-align:left'>{html.escape(name)}</th><td>{html.escape(value)}</td></tr>"
 
 
 def whole_file(path: str | os.PathLike[str], content: bytes) -> None:
     """Writes a file that appears whole or not at all."""
-    target = Path(path)
-    number, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
+    import tempfile
+
+    folder, own = os.path.split(os.fspath(path))
+    number, name = tempfile.mkstemp(prefix=f".{own}.", dir=folder or ".")
     try:
         with os.fdopen(number, "wb") as file:
             file.write(content)
         mask = os.umask(0)
         os.umask(mask)
         os.chmod(name, 0o666 & ~mask)
-        os.replace(name, target)
+        os.replace(name, path)
     except BaseException:
         os.unlink(name)
         raise

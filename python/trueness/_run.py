@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping, Sequence
-from difflib import get_close_matches
 from typing import TypeAlias, TypeVar, cast
 
 import numpy as np
@@ -50,6 +49,8 @@ def run(
 ) -> Document:
     """Runs a task with these arguments."""
     for name in unknown:
+        from difflib import get_close_matches
+
         nearest = get_close_matches(name, given, 1)
         hint = f"; did you mean {nearest[0]!r}?" if nearest else f"; it has {', '.join(given)}"
         raise TypeError(f"{task}() has no argument {name!r}{hint}")
