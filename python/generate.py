@@ -41,7 +41,7 @@ POSITIONAL = {
 SOURCES = {"measured", "reference", "references", "mesh", "input", "points", "file", "nominal", "plan", "regions", "scale"}
 OUTPUTS = {"out", "csv", "junit", "qif", "dxf", "svg", "step", "iges", "obj", "knots"}
 # Texts that are numbers as well: `0.1`, `-0.1,+0.2`, `0,0,1`.
-NUMBERS = {"tolerance", "along", "coverage", "fairness", "noise", "degree", "spans", "facing", "columns", "normals"}
+NUMBERS = {"tolerance", "along", "coverage", "fairness", "noise", "degree", "spans", "columns", "normals"}
 
 
 def title(name: str) -> str:
@@ -218,16 +218,19 @@ def argument(task: str, name: str, schema: dict[str, Any], defs: dict[str, Any])
         return "Source"
     if name in OUTPUTS or (task == "align" and name == "points"):
         return "Path"
-    if name in NUMBERS:
+    if name in NUMBERS and is_path:
         return "Text"
     text, _ = Module({}).kind(schema, defs)
     return text.replace(" | None", "").replace("list[", "Sequence[")
 
 
 def passed(key: str, schema: dict[str, Any]) -> str:
-    """How an argument is handed on: one source stands for a list of one."""
-    several = key in SOURCES | {"results"} and schema.get("type") == "array"
-    return f"several({attribute(key)})" if several else attribute(key)
+    """How an argument is handed on: one source stands for a list of one, numbers for their text."""
+    if key in SOURCES | {"results"} and schema.get("type") == "array":
+        return f"several({attribute(key)})"
+    if key in NUMBERS and "string" in schema.get("type", []):
+        return f"{'limits' if key == 'tolerance' else 'text'}({attribute(key)})"
+    return attribute(key)
 
 
 def default(schema: dict[str, Any], name: str) -> str:
@@ -323,7 +326,7 @@ TASKS_HEAD = '''from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal, Never
 
 from ._progress import Progress
-from ._run import Path, Source, Text, run, several
+from ._run import Path, Source, Text, limits, run, several, text
 
 if TYPE_CHECKING:
     from ._document import TaskDocument

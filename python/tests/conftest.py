@@ -102,3 +102,13 @@ def rod_distance(points: NDArray[np.float64]) -> NDArray[np.float64]:
     above = np.maximum(-points[:, 2], points[:, 2] - 3)
     outside = np.hypot(np.maximum(beside, 0), np.maximum(above, 0))
     return np.asarray(outside + np.minimum(np.maximum(beside, above), 0))
+
+
+def sphere(rings: int) -> t.Mesh:
+    """A sphere of radius 100 of about 2·rings² facets."""
+    polar, turn = np.meshgrid(np.linspace(0, np.pi, rings + 1), np.linspace(0, 2 * np.pi, rings, endpoint=False), indexing="ij")
+    vertices = 100 * np.stack([np.sin(polar) * np.cos(turn), np.sin(polar) * np.sin(turn), np.cos(polar)], axis=-1)
+    i, j = np.meshgrid(np.arange(rings), np.arange(rings), indexing="ij")
+    a, b = i * rings + j, i * rings + (j + 1) % rings
+    faces = np.concatenate([np.stack([a, a + rings, b], -1).reshape(-1, 3), np.stack([b, a + rings, b + rings], -1).reshape(-1, 3)])
+    return t.Mesh(vertices.reshape(-1, 3), faces)

@@ -17,20 +17,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import ROOT, sphere
 from numpy.typing import NDArray
 
 import trueness as t
-
-
-def sphere(rings: int) -> t.Mesh:
-    """A sphere of radius 100 of about 2·rings² facets."""
-    polar, turn = np.meshgrid(np.linspace(0, np.pi, rings + 1), np.linspace(0, 2 * np.pi, rings, endpoint=False), indexing="ij")
-    vertices = 100 * np.stack([np.sin(polar) * np.cos(turn), np.sin(polar) * np.sin(turn), np.cos(polar)], axis=-1)
-    i, j = np.meshgrid(np.arange(rings), np.arange(rings), indexing="ij")
-    a, b = i * rings + j, i * rings + (j + 1) % rings
-    faces = np.concatenate([np.stack([a, a + rings, b], -1).reshape(-1, 3), np.stack([b, a + rings, b + rings], -1).reshape(-1, 3)])
-    return t.Mesh(vertices.reshape(-1, 3), faces)
 
 
 def test_other_threads_run_meanwhile() -> None:
@@ -100,7 +90,7 @@ INTERRUPTED = """
 import sys, time
 sys.path.insert(0, "python/tests")
 import numpy as np
-from test_processes import sphere
+from conftest import sphere
 mesh, points = sphere(300), np.random.default_rng(1).uniform(-150, 150, (20_000_000, 3))
 mesh.closest(points[:1])
 print("ready", flush=True)

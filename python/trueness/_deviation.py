@@ -116,9 +116,9 @@ class Deviation:
 
         It is made at the first look, from the points as they are then; points that have changed since are an error.
         """
-        return self._compare(None)
+        return self._compare(view=False)
 
-    def _compare(self, out: str | os.PathLike[str] | None) -> CompareDocument:
+    def _compare(self, *, view: bool, out: str | os.PathLike[str] | None = None) -> CompareDocument:
         from .tasks import compare
 
         finite = np.isfinite(self.points).all(axis=1)
@@ -132,6 +132,7 @@ class Deviation:
             max_distance=None if np.isinf(max_distance) else max_distance,
             skip_boundary=skip_boundary,
             out=out,
+            view=view,
         )
         if found.comparisons[0].deviation != self.statistics:
             raise UsageError("points: they have changed since they were measured; call deviation again")
@@ -152,10 +153,12 @@ class Deviation:
         ``.parquet``, ``.npz``, ``.vtp``; points that are not finite are left out).
         """
         ending = os.path.splitext(path)[1].lower()
-        if ending in (".html", ".htm", ".json"):
+        if ending == ".json":
             self.document.save(path)
+        elif ending in (".html", ".htm"):
+            self._compare(view=True).save(path)
         elif ending in POINT_FILES:
-            self._compare(path)
+            self._compare(view=False, out=path)
         else:
             raise UsageError(f"{os.fspath(path)}: the ending must be .html, .json or one of {', '.join(POINT_FILES)}")
 

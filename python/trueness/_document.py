@@ -192,7 +192,8 @@ def whole_file(path: str | os.PathLike[str], content: bytes) -> None:
     """Writes a file that appears whole or not at all."""
     import tempfile
 
-    folder, own = os.path.split(os.fspath(path))
+    target: str = os.fspath(path)
+    folder, own = os.path.split(target)
     number, name = tempfile.mkstemp(prefix=f".{own}.", dir=folder or ".")
     try:
         with os.fdopen(number, "wb") as file:

@@ -60,6 +60,20 @@ def run(
     return document._of(answer)
 
 
+def text(value: Text | None) -> str | None:
+    """The text of the command line that a number or several stand for."""
+    if value is None or isinstance(value, str):
+        return value
+    return ",".join(map(str, value)) if isinstance(value, Sequence) else repr(float(value))
+
+
+def limits(tolerance: Text | None) -> str | None:
+    """The text of a tolerance: two numbers carry their signs."""
+    if tolerance is None or isinstance(tolerance, str) or not isinstance(tolerance, Sequence):
+        return text(tolerance)
+    return ",".join(f"{float(limit):+}" for limit in tolerance)
+
+
 def several(values: object) -> list[object]:
     """Sources as a list; one by itself is a list of one."""
     if isinstance(values, (list, tuple)) and not _holds_rows(cast("object", values)):
@@ -80,7 +94,7 @@ def _value(name: str, value: object, memory: dict[str, bytes]) -> Json:
         memory[f"<{name}>"] = content
         return f"<{name}>"
     if isinstance(value, (int, float)):
-        return repr(value) if name in TEXTS else value
+        return value
     if isinstance(value, np.ndarray):
         return _value(name, cast("object", value.tolist()), memory)
     if isinstance(value, Sequence):
@@ -88,8 +102,6 @@ def _value(name: str, value: object, memory: dict[str, bytes]) -> Json:
     raise UsageError(f"{name}: a {type(value).__name__} is nothing that it takes")
 
 
-#: Arguments that are texts of the command line, where numbers stand for themselves.
-TEXTS = {"tolerance", "along", "coverage", "fairness", "degree", "spans", "columns", "normals", "outliers"}
 #: Arguments that are files, where rows of numbers are points.
 FILES = {"measured", "reference", "references", "mesh", "input", "points", "file", "nominal"}
 
@@ -120,8 +132,6 @@ def _holds_rows(value: object) -> bool:
 
 
 def _list(name: str, values: Sequence[object], memory: dict[str, bytes]) -> Json:
-    if name in TEXTS:
-        return ",".join(_signed(value) if isinstance(value, (int, float)) and name == "tolerance" else str(value) for value in values)
     one = name.removesuffix("s")
     shown = [one] if len(values) == 1 else [f"{one} {i + 1}" for i in range(len(values))]
     return [_item(own, name, value, memory) for own, value in zip(shown, values, strict=True)]
@@ -133,7 +143,3 @@ def _item(shown: str, name: str, value: object, memory: dict[str, bytes]) -> Jso
         return _value(name, value, memory)
     memory[f"<{shown}>"] = content
     return f"<{shown}>"
-
-
-def _signed(value: float) -> str:
-    return f"+{value!r}" if value >= 0 else repr(value)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal, Never
 
 from ._progress import Progress
-from ._run import Path, Source, Text, run, several
+from ._run import Path, Source, Text, limits, run, several, text
 
 if TYPE_CHECKING:
     from ._document import TaskDocument
@@ -104,13 +104,13 @@ def align(
         "reference": reference,
         "units": units,
         "format": format,
-        "columns": columns,
+        "columns": text(columns),
         "reference_units": reference_units,
         "reference_format": reference_format,
         "out": out,
         "method": method,
         "points": points,
-        "tolerance": tolerance,
+        "tolerance": limits(tolerance),
         "regions": regions,
         "from_here": from_here,
         "lock": lock,
@@ -215,7 +215,7 @@ def compare(
     max_distance: float | None = None,
     skip_boundary: bool = False,
     along: Text | None = None,
-    facing: Text | None = None,
+    facing: float | None = None,
     normals: Text | None = None,
     outliers: str | None = None,
     coverage: Text | None = None,
@@ -278,7 +278,7 @@ def compare(
     along : Text | None
         Measure along lines instead of to the nearest place: a direction `X,Y,Z`, or the normals of
         the `reference` or of the `measured`.
-    facing : Text | None
+    facing : float | None
         Exclude (and count) points whose normals turn away from the reference's by more than this,
         degrees.
     normals : Text | None
@@ -332,7 +332,7 @@ def compare(
         "references": several(references),
         "units": units,
         "format": format,
-        "columns": columns,
+        "columns": text(columns),
         "reference_units": reference_units,
         "reference_format": reference_format,
         "weld": weld,
@@ -341,16 +341,16 @@ def compare(
         "align": align,
         "method": method,
         "sign": sign,
-        "tolerance": tolerance,
+        "tolerance": limits(tolerance),
         "regions": regions,
         "inside": inside,
         "max_distance": max_distance,
         "skip_boundary": skip_boundary,
-        "along": along,
+        "along": text(along),
         "facing": facing,
-        "normals": normals,
+        "normals": text(normals),
         "outliers": outliers,
-        "coverage": coverage,
+        "coverage": text(coverage),
         "min_coverage": min_coverage,
         "worst": worst,
         "sample": sample,
@@ -406,7 +406,7 @@ def convert(
         "out": out,
         "units": units,
         "format": format,
-        "columns": columns,
+        "columns": text(columns),
         "chord": chord,
     }
     return run("convert", ConvertDocument, given, progress, unknown)
@@ -415,7 +415,7 @@ def convert(
 def curvature(
     input: Source,
     *,
-    degree: Text = 3,
+    degree: int = 3,
     neighbors: int | None = None,
     radius: float | None = None,
     boundary: bool = False,
@@ -436,7 +436,7 @@ def curvature(
     ----------
     input : Source
         A mesh, or points.
-    degree : Text
+    degree : int
         Degree of the polynomials, from 2 to 6.
     neighbors : int | None
         Fewest neighbors: whole rings of a mesh, the nearest ones of a cloud; without it 3 for each
@@ -482,7 +482,7 @@ def curvature(
         "independent": independent,
         "units": units,
         "format": format,
-        "columns": columns,
+        "columns": text(columns),
         "out": out,
         "color": color,
         "seed": seed,
@@ -551,7 +551,7 @@ def fit(
         "method": method,
         "units": units,
         "format": format,
-        "columns": columns,
+        "columns": text(columns),
         "independent": independent,
         "seed": seed,
         "view": view,
@@ -594,7 +594,7 @@ def info(
         "file": file,
         "units": units,
         "format": format,
-        "columns": columns,
+        "columns": text(columns),
     }
     return run("info", InfoDocument, given, progress, unknown)
 
@@ -794,7 +794,7 @@ def section(
     stack: Sequence[Sequence[float]] = (),
     thickness: float | None = None,
     gap: float | None = None,
-    noise: Text | None = None,
+    noise: float | None = None,
     continuity: Literal["g0", "g1", "g2"] | None = None,
     closed: bool = False,
     open: bool = False,
@@ -846,7 +846,7 @@ def section(
     gap : float | None
         Contours of a cloud go on over gaps up to this, mm; without it told from how uneven the points
         lie.
-    noise : Text | None
+    noise : float | None
         Standard deviation of the points across the contour, mm; without it found from the data.
     continuity : Literal["g0", "g1", "g2"] | None
         Continuity of all joins; without it told from the data.
@@ -920,7 +920,7 @@ def section(
         "input": input,
         "units": units,
         "format": format,
-        "columns": columns,
+        "columns": text(columns),
         "plane": plane,
         "stack": stack,
         "thickness": thickness,
@@ -940,7 +940,7 @@ def section(
         "reference_units": reference_units,
         "reference_format": reference_format,
         "fit": fit,
-        "tolerance": tolerance,
+        "tolerance": limits(tolerance),
         "inside": inside,
         "min_coverage": min_coverage,
         "max_distance": max_distance,
@@ -959,7 +959,7 @@ def segment(
     input: Source,
     *,
     shapes: Sequence[Literal["plane", "cylinder", "cone", "sphere", "torus"]] = ('plane', 'cylinder', 'cone', 'sphere', 'torus'),
-    tolerance: Text | None = None,
+    tolerance: float | None = None,
     crease: float = 32.0,
     min_share: float | None = None,
     min_points: int = 0,
@@ -982,7 +982,7 @@ def segment(
         A mesh, or points.
     shapes : Sequence[Literal["plane", "cylinder", "cone", "sphere", "torus"]]
         What is looked for.
-    tolerance : Text | None
+    tolerance : float | None
         Distance up to which a point belongs to an element, mm; without it eight standard deviations
         of the noise found.
     crease : float
@@ -1029,7 +1029,7 @@ def segment(
         "min_points": min_points,
         "units": units,
         "format": format,
-        "columns": columns,
+        "columns": text(columns),
         "independent": independent,
         "members": members,
         "out": out,
@@ -1045,7 +1045,7 @@ def surface(
     degree: Text | None = None,
     spans: Text | None = None,
     knots: Path | None = None,
-    tolerance: Text | None = None,
+    tolerance: float | None = None,
     base: Literal["plane", "xy", "cylinder", "sphere", "mesh"] = "plane",
     fairness: Text | None = None,
     corrections: int = 5,
@@ -1075,7 +1075,7 @@ def surface(
         where that is more.
     knots : Path | None
         Whole clamped knots: a JSON file `{"u": […], "v": […]}`.
-    tolerance : Text | None
+    tolerance : float | None
         Set knots until all points are within this distance, mm, or until noise is all that is left.
     base : Literal["plane", "xy", "cylinder", "sphere", "mesh"]
         What the parameters are taken from.
@@ -1117,18 +1117,18 @@ def surface(
 
     given: dict[str, object] = {
         "points": points,
-        "degree": degree,
-        "spans": spans,
+        "degree": text(degree),
+        "spans": text(spans),
         "knots": knots,
         "tolerance": tolerance,
         "base": base,
-        "fairness": fairness,
+        "fairness": text(fairness),
         "corrections": corrections,
         "robust": robust,
         "trim": trim,
         "units": units,
         "format": format,
-        "columns": columns,
+        "columns": text(columns),
         "step": step,
         "iges": iges,
         "obj": obj,
