@@ -3,7 +3,9 @@
 
 mod dependencies;
 mod oldest;
+mod package;
 mod readback;
+mod venv;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -15,7 +17,8 @@ cargo xtask long      the checks that take longer: ignored tests, many cases, fu
 cargo xtask tidy      lists circles between modules, long files and long functions, rooms with more numbers than before
 cargo xtask licences  the licences and double versions of what the workspace depends on
 cargo xtask readback  what the program writes, read by other programs (needs Python 3)
-cargo xtask schema    writes the JSON schemas of result documents and requests to docs/schema/";
+cargo xtask python    builds the Python package and runs its tests (needs Python 3.11)
+cargo xtask schema    writes the JSON schemas of result documents and requests to docs/schema/, and the Python package's types of them";
 
 /// A check: its name and what decides it.
 enum Step {
@@ -64,6 +67,22 @@ const STEPS: &[Step] = &[
     )),
     Step::Command(cargo("tests", &["test", IN_ONE_PIECE, "--workspace", "--locked"])),
     Step::Own("read back", readback::run),
+    Step::Own("python package", package::run),
+    Step::Command(cargo(
+        "python package's lints",
+        &[
+            "clippy",
+            "--manifest-path",
+            "python/Cargo.toml",
+            "--all-targets",
+            "--locked",
+            "--target-dir",
+            "target",
+            "--",
+            "-D",
+            "warnings",
+        ],
+    )),
     Step::Command(Call {
         variables: &[("RUSTDOCFLAGS", "-D warnings")],
         ..cargo("documentation", &["doc", IN_ONE_PIECE, "--workspace", "--no-deps", "--locked"])
@@ -176,7 +195,8 @@ fn main() -> ExitCode {
         Some("tidy") => run(&TIDY),
         Some("licences") => dependencies::run(&root()),
         Some("readback") => readback::run(&root()),
-        Some("schema") => SCHEMAS.iter().all(run),
+        Some("python") => package::run(&root()),
+        Some("schema") => SCHEMAS.iter().all(run) && package::write(&root()),
         _ => {
             eprintln!("{HELP}");
             return ExitCode::from(2);

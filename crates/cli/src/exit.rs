@@ -2,7 +2,6 @@
 
 use crate::{console, signals};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::process::ExitCode;
 use trueness::task::{ErrorKind, Outcome, TaskError};
 use trueness_files::WriteError;
 
@@ -47,15 +46,15 @@ pub fn catch(work: impl FnOnce() -> anyhow::Result<Outcome>) -> anyhow::Result<O
 }
 
 /// Prints the error, if any, and chooses the exit status.
-pub fn code(outcome: anyhow::Result<Outcome>) -> ExitCode {
+pub fn code(outcome: anyhow::Result<Outcome>) -> u8 {
     let error = match outcome {
-        Ok(Outcome::Conforming) => return ExitCode::SUCCESS,
-        Ok(Outcome::NotConforming) => return ExitCode::from(1),
-        Ok(Outcome::Unanswered(kind)) => return ExitCode::from(unanswered(kind)),
+        Ok(Outcome::Conforming) => return 0,
+        Ok(Outcome::NotConforming) => return 1,
+        Ok(Outcome::Unanswered(kind)) => return unanswered(kind),
         Err(error) => error,
     };
     console::error(error.as_ref());
-    ExitCode::from(status(&error))
+    status(&error)
 }
 
 /// The exit status of a run that ends with this error.

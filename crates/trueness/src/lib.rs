@@ -6,6 +6,7 @@
 //! |---|---|
 //! | read a file of any kind; write a mesh | [`read`](read()), [`write_mesh`] |
 //! | signed deviations of points from a mesh or from the exact faces of a CAD model, their statistics | [`Reference`], [`Deviations`] |
+//! | a CAD model from memory, asked with other options each time | [`Model`] |
 //! | bring a scan onto its reference | [`Reference::align`] |
 //! | is a mesh sound? | [`check`] |
 //! | mend it | [`repair`] |
@@ -62,6 +63,7 @@ pub mod tasks;
 
 pub use easy::deviations::{Deviation, Deviations};
 pub use easy::error::Error;
+pub use easy::model::Model;
 pub use easy::part::{Part, read, write_mesh};
 pub use easy::reference::Reference;
 pub use easy::tasks::{check, contour, curvature, fit, repair, sections, segment, surface};

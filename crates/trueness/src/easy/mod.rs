@@ -2,6 +2,7 @@
 
 pub mod deviations;
 pub mod error;
+pub mod model;
 pub mod part;
 pub mod reference;
 pub mod tasks;
