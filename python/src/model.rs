@@ -107,9 +107,9 @@ impl Model {
         let options = SurfaceOptions { sign: self::sign(py, sign)?, max_distance, skip_boundary };
         let found = work::run(py, progress.as_ref(), |watcher| {
             watcher.begin("measuring", "points", Some(finite.points.len() as u64));
-            self.model.deviations(&finite.points, &options, watcher)
+            self.model.faces().deviations(&finite.points, &options, watcher)
         })?;
-        let found = found.map_err(|e| errors::task(py, &e))?;
+        let found = found.map_err(|e| errors::query(py, e, |i| finite.row(i)))?;
         Ok(arrays::column(py, finite.spread(found, f64::NAN, given.slice().len())))
     }
 }

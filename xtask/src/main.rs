@@ -68,21 +68,6 @@ const STEPS: &[Step] = &[
     Step::Command(cargo("tests", &["test", IN_ONE_PIECE, "--workspace", "--locked"])),
     Step::Own("read back", readback::run),
     Step::Own("python package", package::run),
-    Step::Command(cargo(
-        "python package's lints",
-        &[
-            "clippy",
-            "--manifest-path",
-            "python/Cargo.toml",
-            "--all-targets",
-            "--locked",
-            "--target-dir",
-            "target",
-            "--",
-            "-D",
-            "warnings",
-        ],
-    )),
     Step::Command(Call {
         variables: &[("RUSTDOCFLAGS", "-D warnings")],
         ..cargo("documentation", &["doc", IN_ONE_PIECE, "--workspace", "--no-deps", "--locked"])

@@ -22,10 +22,8 @@ pub fn run(root: &Path) -> bool {
         return false;
     }
     let mut build = Command::new(&python);
-    build.args(["-m", "maturin", "build", "--profile", "dev", "--locked", "--manifest-path"]);
+    build.args(["-m", "maturin", "build", crate::IN_ONE_PIECE, "--profile", "dev", "--locked", "--manifest-path"]);
     build.arg("python/Cargo.toml").arg("--out").arg(&wheels).arg("--interpreter").arg(&python);
-    // Beside the main workspace's: it has built most of what this needs.
-    build.env("CARGO_TARGET_DIR", root.join("target"));
     if !done(root, &mut build) {
         return false;
     }
