@@ -1,5 +1,5 @@
 //! Plans of small models, each held against the model itself.
-#![allow(clippy::unwrap_used, reason = "a test may stop")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may stop")]
 
 use super::{General, Proposal, of_model};
 use crate::cad_faces::CadFaces;
