@@ -21,6 +21,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
 
 pub mod align;
+mod area;
 mod bounds;
 pub mod cad;
 pub mod cad_faces;

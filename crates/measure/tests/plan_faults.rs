@@ -181,6 +181,12 @@ const FAULTS: &[Fault] = &[
         "tolerance = 0.1\nmaterial = \"M\"",
         "line 29, column 12: flatness takes no `material`",
     ),
+    // No name is that of all faces without one.
+    fault(
+        "units = \"mm\"\n\n[[feature]]\nid = \"A\"\nshape = \"plane\"\npoints = \"floor.xyz\"",
+        "reference = \"m.stp\"\nmeasured = \"s.xyz\"\n[[feature]]\nid = \"A\"\nshape = \"plane\"\nname = \" \"",
+        "line 7, column 8: the name is empty; give the one that the file has for the faces, or their numbers by `face`",
+    ),
     fault(
         "points = \"floor.xyz\"",
         "points = \"floor.xyz\"\ninternal = true",

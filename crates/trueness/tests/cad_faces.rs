@@ -288,6 +288,28 @@ fn a_face_is_not_its_whole_surface() {
     assert!((document.characteristics[0].value.unwrap() - 10.04).abs() < 1e-6);
 }
 
+/// Of a model of which a face was not read no part passes; a feature that is that face says why there is none.
+#[test]
+fn an_incomplete_model_passes_no_part() {
+    let (step, faces) = plate(0.0);
+    let plan = bore_and_plane("name = \"BORE\"", "name = \"TOP\"");
+    let whole = inspected(&step, &scan(0.02), &plan).unwrap();
+    assert_eq!(whole.verdict.to_string(), "pass");
+    // The front is a plane of the third face.
+    let front = format!("#{}=ADVANCED_FACE", faces[2]);
+    let line = step.lines().find(|line| line.starts_with(&front)).unwrap();
+    let surface = line.rsplit(",#").next().unwrap().split(',').next().unwrap();
+    let broken = step.replace(&format!("#{surface}=PLANE("), &format!("#{surface}=FLOATING_CARPET("));
+    let document = inspected(&broken, &scan(0.02), &plan).unwrap();
+    assert_eq!(document.verdict.to_string(), "undecided");
+    let reasons: Vec<String> = document.verdict_reasons.iter().map(|r| r.text.clone()).collect();
+    assert!(reasons.iter().any(|r| r.contains("7 of 8 faces of the reference were read")), "{reasons:?}");
+    assert!(document.characteristics.iter().all(|c| c.value.is_some()));
+    let asked = bore_and_plane("name = \"BORE\"", &format!("face = {}", faces[2]));
+    let refused = inspected(&broken, &scan(0.02), &asked).unwrap_err().to_string();
+    assert!(refused.contains(&format!("face {} of the reference could not be read", faces[2])), "{refused}");
+}
+
 #[test]
 fn faces_that_cannot_be_the_feature_are_refused_with_the_reason() {
     let (step, faces) = plate(0.0);

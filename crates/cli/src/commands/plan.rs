@@ -29,12 +29,16 @@ enum What {
 #[command(after_help = "\
 Examples:
   trueness plan init nominal.stl --out part.toml
-  trueness plan init part.stp --out part.toml")]
+  trueness plan init part.stp --out part.toml
+  trueness plan init part.stp --general ISO2768-mK --out part.toml")]
 struct InitArgs {
     /// The nominal: a CAD model or a mesh
     nominal: PathBuf,
     #[command(flatten)]
     reading: InputArgs,
+    /// General tolerances for what a CAD model states none for: f, m, c or v of ISO 2768-1, H, K or L of ISO 2768-2
+    #[arg(long, value_name = "ISO2768-mK")]
+    general: Option<String>,
     /// Write the plan to this file, which must not exist yet [default: stdout]
     #[arg(long, short, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -45,6 +49,7 @@ impl InitArgs {
         PlanInitRequest {
             nominal: self.nominal.clone(),
             reading: self.reading.reading(),
+            general: self.general.clone(),
             out: self.out.clone(),
             seed: common.seed,
         }

@@ -20,6 +20,12 @@ const LINEAR: Table<8, 4, Option<f64>> = (
     ],
 );
 
+/// The same of external radii and heights of chamfers.
+const RADII: Table<3, 4, f64> = (
+    [3.0, 6.0, f64::INFINITY],
+    [("f", [0.2, 0.5, 1.0]), ("m", [0.2, 0.5, 1.0]), ("c", [0.4, 1.0, 2.0]), ("v", [0.4, 1.0, 2.0])],
+);
+
 /// The same of angles: ends of the length of the shorter leg, and minutes of arc.
 const ANGULAR: Table<5, 4, f64> = (
     [10.0, 50.0, 120.0, 400.0, f64::INFINITY],
@@ -85,6 +91,12 @@ pub(super) fn linear(class: &str, nominal: f64, known: &'static str) -> Result<[
     let value =
         values[place].ok_or_else(|| ClassError::Range { class: class.into(), length: nominal, range: RANGE });
     value.map(|t| [-t, t])
+}
+
+pub(super) fn radius(class: &str, nominal: f64) -> Result<[f64; 2], ClassError> {
+    let values = row(class, false, &RADII.1, DIMENSIONS)?;
+    let t = values[at(class, &RADII.0, 0.5, nominal, "radii from 0.5 mm")?];
+    Ok([-t, t])
 }
 
 /// In degrees.

@@ -8,6 +8,21 @@ mod iso286;
 
 pub use error::ClassError;
 
+/// Limit deviations of an external radius or the height of a chamfer: ISO 2768-1, table 2.
+///
+/// # Errors
+/// [`ClassError`]: other letters than f, m, c and v, or a radius below 0.5 mm.
+///
+/// ```
+/// use trueness_document::tolerance_class::radius;
+/// assert_eq!([radius("m", 3.0)?, radius("m", 3.1)?, radius("v", 10.0)?], [[-0.2, 0.2], [-0.5, 0.5], [-2.0, 2.0]]);
+/// assert!(radius("m", 0.4).is_err() && radius("K", 3.0).is_err());
+/// # Ok::<(), trueness_document::tolerance_class::ClassError>(())
+/// ```
+pub fn radius(class: &str, nominal: f64) -> Result<[f64; 2], ClassError> {
+    iso2768::radius(class, nominal)
+}
+
 /// Which table a kind of characteristic takes its classes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Table {

@@ -20,7 +20,7 @@ const PLANE_UNKNOWNS: usize = 3;
 /// The sure points of a face.
 pub(super) struct Sure<'a> {
     face: &'a Face,
-    placed: &'a Placed,
+    pub(super) placed: &'a Placed,
     places: Vec<Point>,
     normals: Vec<Vector>,
     offs: Vec<f64>,

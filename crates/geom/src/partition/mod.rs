@@ -122,7 +122,8 @@ pub fn partition(
         let reach = f64::max(SEARCH_REACHES * reach, ROUNDED_EDGE_SPACINGS * spacing);
         candidates.push(near(face, points, facing.as_ref(), reach, spacing, progress)?);
     }
-    let work = Work { points, faces, reach, candidates, spacing };
+    let least = work::least_off(points.len(), &candidates);
+    let work = Work { points, faces, reach, candidates, spacing, least };
     let mut sure = work.sure(facing.as_ref());
     if let Some((mesh, facing)) = mesh.zip(facing.as_ref()) {
         by_facets::add(mesh, (&work, facing), &mut sure, progress)?;

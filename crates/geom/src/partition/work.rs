@@ -44,22 +44,29 @@ pub(super) struct Work<'a> {
     pub reach: Vec<f64>,
     pub candidates: Vec<Vec<Candidate>>,
     pub spacing: f64,
+    /// Of each point, how far off it is the nearest face over which it lies.
+    pub least: Vec<f64>,
+}
+
+/// Of each of so many points, how far off it is the nearest face over which it lies; infinite where it lies over none.
+pub(super) fn least_off(count: usize, candidates: &[Vec<Candidate>]) -> Vec<f64> {
+    let mut least = vec![f64::INFINITY; count];
+    for c in candidates.iter().flatten().filter(|c| c.seat.within() > 0.0) {
+        let least = &mut least[c.point as usize];
+        *least = least.min(c.seat.off.abs());
+    }
+    least
 }
 
 impl Work<'_> {
     /// The points that surely belong to each face. It is the nearest of those over which they lie, they face as it does and lie
     /// clear of its border.
     pub(super) fn sure(&self, facing: Option<&Facing>) -> Vec<Vec<Candidate>> {
-        let mut least = vec![f64::INFINITY; self.points.len()];
-        for c in self.candidates.iter().flatten().filter(|c| c.seat.within() > 0.0) {
-            let least = &mut least[c.point as usize];
-            *least = least.min(c.seat.off.abs());
-        }
         let clear = |near: &[Candidate], reach: f64, times: f64| -> Vec<Candidate> {
             let is_own = |c: &&Candidate| {
                 let (p, off) = (c.point as usize, c.seat.off.abs());
                 c.seat.within() > times * self.spacing
-                    && off <= reach.min(least[p])
+                    && off <= reach.min(self.least[p])
                     && facing.is_none_or(|f| dot(f.vertices[p], c.seat.normal()) > FACING_POINT_COSINE)
             };
             near.iter().filter(is_own).copied().collect()
@@ -100,12 +107,18 @@ impl Work<'_> {
                 let off = placed[number].off(face, self.points[c.point as usize], c.seat).abs();
                 let is_there =
                     c.seat.within() > -FREE_SPACINGS * self.spacing || off <= EXPLAINED_SIGMAS * scale;
-                if is_there && off <= self.reach[number] {
+                if is_there && off <= self.reach[number] && self.may_own(&placed[number], c) {
                     best.add(c, number as u32, off / scale + self.beyond(c.seat.within()));
                 }
             }
         }
         best
+    }
+
+    /// Whether a face may have a point. One without sure points is known by its nominal alone, and explains all within its reach: it has what no
+    /// other face is nearer to.
+    fn may_own(&self, placed: &Placed, c: &Candidate) -> bool {
+        placed.points > 0 || c.seat.off.abs() <= self.least[c.point as usize]
     }
 
     /// Tells how far off points lie from the nearest face adjacent to their own. They lie over that face, or hardly beyond its
@@ -160,7 +173,8 @@ impl Work<'_> {
                     let z = around.off_over(self.points[c.point as usize], c.seat, *reach, noise)?;
                     Some((*c, z + self.beyond(c.seat.within() + FREE_SPACINGS * self.spacing)))
                 };
-                near.par_iter().filter(|c| asked[c.point as usize]).filter_map(ask).collect()
+                let is_asked = |c: &&Candidate| asked[c.point as usize] && self.may_own(around.placed, c);
+                near.par_iter().filter(is_asked).filter_map(ask).collect()
             })
             .collect();
         (0..self.points.len()).filter(|p| asked[*p]).for_each(|p| best.forget(p));

@@ -2,6 +2,7 @@
 
 use super::face::CadFace;
 use crate::drawn_faces::DrawnFaces;
+use std::collections::BTreeSet;
 use trueness_cad::brep::{Bounds, Brep, Loop};
 use trueness_cad::model::Model;
 use trueness_cad::search::Search;
@@ -24,7 +25,7 @@ pub struct CadFaces {
     pub uncertainty: f64,
     /// Entities that are faces, or hold faces, and could not be read: their number, and why.
     pub unread: Vec<(u64, String)>,
-    /// The names on the way from the root of the assembly to each instance.
+    /// The names on the way from the root of the assembly to each instance. Where several have the same, the later ones have a number too.
     pub instances: Vec<String>,
     /// Faces that share an edge with each, ascending.
     pub(super) neighbors: Vec<Vec<u32>>,
@@ -52,7 +53,7 @@ impl CadFaces {
             drawn_within,
             uncertainty: model.same_within().unwrap_or(0.0),
             unread: unread.map(|u| (u.entity, u.reason.clone())).collect(),
-            instances: model.instances.iter().map(|i| i.path.join("/")).collect(),
+            instances: instance_names(model),
             neighbors,
         }
     }
@@ -79,6 +80,21 @@ impl std::fmt::Debug for CadFaces {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
         write!(f, "CadFaces({})", self.faces.len())
     }
+}
+
+/// A name of its own for each instance: files may give several the same, or none.
+fn instance_names(model: &Model) -> Vec<String> {
+    let mut taken: BTreeSet<String> = BTreeSet::new();
+    let name = |path: &[String]| {
+        let path = path.join("/");
+        let path = path.trim();
+        let numbered = (2u32..).map(|n| format!("{path} ({n})").trim().to_string());
+        let first = Some(path.to_string()).filter(|path| !path.is_empty());
+        let free = first.into_iter().chain(numbered).find(|name| !taken.contains(name)).unwrap_or_default();
+        taken.insert(free.clone());
+        free
+    };
+    model.instances.iter().map(|i| i.path.as_slice()).map(name).collect()
 }
 
 /// Faces that share an edge with each, ascending.

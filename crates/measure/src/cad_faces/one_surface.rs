@@ -37,7 +37,8 @@ impl CadFaces {
         self.uncertainty.max(ROUNDED_SIZE_SHARE * size)
     }
 
-    fn is_one(&self, first: u32, second: u32) -> bool {
+    /// Whether two faces are parts of one surface.
+    pub(crate) fn is_one(&self, first: u32, second: u32) -> bool {
         matches!(self.apart(first, second), Apart::By(off) if off <= self.same_within(first))
     }
 

@@ -130,7 +130,7 @@ impl Characteristic for Position {
         let found = placed(&points, &distance, &search, m.progress)?;
         if required(m.spec) {
             let [Some(x), Some(y), None] = place else {
-                return Err(Impossible::NotAlongZ.into());
+                return Err(NotMeasured::NotAlongZ.into());
             };
             let value = super::material::located(m, [x, y])?;
             return Ok(Value { place: compared_place(m, found.motion), ..value });
@@ -220,7 +220,7 @@ fn material(q: &Question, class: Class, given: [bool; 3]) -> Result<(), Refusal>
     }
     let key = if spec.material.is_some() { "material" } else { "datums" };
     if !is_axis(class) || given != [true, true, false] {
-        return refuse(key, Impossible::NotAlongZ.to_string());
+        return refuse(key, NotMeasured::NotAlongZ.to_string());
     }
     marked_datum(q)
 }

@@ -220,6 +220,9 @@ pub enum NotMeasured {
         /// How far, mm.
         by: f64,
     },
+    /// A boundary in another place than along z.
+    #[error("a material requirement is evaluated for an axis along z, placed by x and y")]
+    NotAlongZ,
     /// A coordinate that does not place an axis.
     #[error(
         "its axis runs along {along} in the datum system, which places nothing: basic = {{ {} = …, {} = … }} places it",
@@ -266,9 +269,6 @@ pub enum Impossible {
     /// Planes without a direction.
     #[error("the intersection planes have no normal")]
     PlanesWithoutNormal,
-    /// A boundary in another place than along z.
-    #[error("a material requirement is evaluated for an axis along z, placed by x and y")]
-    NotAlongZ,
     /// A coordinate that does not place a plane.
     #[error(
         "its plane lies across {across} in the datum system, not across {given}: basic = {{ {across} = … }} places it"

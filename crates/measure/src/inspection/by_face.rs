@@ -1,8 +1,8 @@
 //! Features that are faces of a CAD model.
 
-use super::area::mesh_area;
 use super::own_faces::{Located, Model, OwnFaces, PartOfFaces, kind_of};
 use super::stop::Stop;
+use crate::area::mesh_area;
 use crate::plan::Plan;
 use crate::requirement::{Feature, Source};
 use std::collections::BTreeMap;

@@ -1,7 +1,7 @@
 //! What was measured of an edge: its rounding or chamfer, told by where it lies and how it faces alone.
 
-use super::area::mesh_area;
 use super::parted::OfFeature;
+use crate::area::mesh_area;
 use crate::characteristic::Others;
 use trueness_geom::feature::{FeatureError, Found, Nearness, Nominal, facets_near, in_cloud};
 use trueness_geom::mesh::{FacetsAround, Mesh};

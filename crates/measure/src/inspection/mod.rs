@@ -1,7 +1,6 @@
 //! A plan and measured data make verdicts: one pure function.
 
 mod align;
-mod area;
 mod by_face;
 mod cloud;
 mod data;
@@ -47,6 +46,7 @@ pub use deviation::Deviations;
 pub use document::document;
 pub use faces_view::DrawnFace;
 pub use found::Inspection;
+pub use model::on_model;
 pub use stop::{NominalFault, NotAligned, NotCompared, Stop};
 pub use uncertainty::Uncertainty;
 

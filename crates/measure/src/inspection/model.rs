@@ -8,15 +8,16 @@
 //! - numbers that no part could keep, as its feature is sought where the model has it (`extract` of the feature), are refused too;
 //! - what lies between is told with the value.
 
+use super::data::Data;
 use super::derived::derived;
 use super::extract_features;
 use super::nominals::Nominals;
 use super::places::places;
 use super::readings::{Compared, OfModel, compared, fits_otherwise};
 use super::stop::Stop;
-use crate::characteristic::{MeasuredFeature, Spec};
+use crate::characteristic::{Characteristic, MeasuredFeature, Missing, NotMeasured, Size, Spec};
 use crate::plan::Plan;
-use crate::requirement::{Feature, Source};
+use crate::requirement::{Feature, Limits, Source};
 use trueness_geom::feature::Nominal;
 use trueness_geom::fit::Method;
 use trueness_geom::progress::Progress;
@@ -77,6 +78,62 @@ pub(super) fn resolved(plan: &Plan, nominals: &Nominals, progress: &dyn Progress
     Ok(resolved)
 }
 
+/// Why the model itself contradicts each characteristic of a plan, or why that could never be measured; `None` where nothing is wrong.
+///
+/// # Errors
+/// [`Stop`]: features that the model does not have.
+pub fn on_model(plan: &Plan, data: &Data, progress: &dyn Progress) -> Result<Vec<Option<String>>, Stop> {
+    let nominals = Nominals::new(plan, data, progress)?;
+    let model = Model::new(plan, &nominals, progress)?;
+    let mut all = Vec::with_capacity(plan.specs.len());
+    for spec in &plan.specs {
+        if progress.cancelled() {
+            return Err(Stop::Cancelled);
+        }
+        all.push(contradiction(&model, spec)?);
+    }
+    Ok(all)
+}
+
+/// Why the model contradicts a characteristic.
+fn contradiction(model: &Model, spec: &Spec) -> Result<Option<String>, Stop> {
+    let Some(of) = model.of(spec) else {
+        return Ok(Some("the model has no element where one of its features should be".into()));
+    };
+    let basic = match compared(&of) {
+        Ok(Compared::Alike) => spec.basic,
+        Ok(Compared::Exact(basic)) => basic,
+        Ok(Compared::Differs(what)) | Err(Stop::Plan { what, .. }) => return Ok(Some(what)),
+        Err(stop) => return Err(stop),
+    };
+    // A size was compared; its opposite points are those of a part.
+    if spec.kind.word() == Size.word() {
+        return Ok(None);
+    }
+    let exact = Spec { basic, ..spec.clone() };
+    match (spec.kind.measure(&of.measuring(&exact)), spec.limits) {
+        (Err(Missing::Cancelled), _) => Err(Stop::Cancelled),
+        (Err(Missing::Impossible(why)), _) => Ok(Some(why.to_string())),
+        // That the model has few places tells nothing of a part.
+        (Err(Missing::NotMeasured(why)), _) if is_of_datums(&why) => Ok(Some(why.to_string())),
+        (Ok(value), Limits::Greatest(most)) if value.value > of.rounded(most) => {
+            Ok(Some(format!("the model itself has {:.4} there", value.value)))
+        }
+        _ => Ok(None),
+    }
+}
+
+/// Whether the datum system is the reason, as it would be on every part.
+fn is_of_datums(why: &NotMeasured) -> bool {
+    matches!(
+        why,
+        NotMeasured::Datum(_)
+            | NotMeasured::DatumOrFrame(_)
+            | NotMeasured::AlongCoordinate { .. }
+            | NotMeasured::NotAlongZ
+    )
+}
+
 /// The features as the model has them.
 struct Model<'a> {
     plan: &'a Plan,
@@ -98,7 +155,9 @@ impl<'a> Model<'a> {
                     let made = two.map(|(a, b)| derived(extract_features::bare(feature), *how, a, b));
                     (made.filter(|made| made.element.is_ok()), reach[*a].max(reach[*b]))
                 }
-                (_, Some(nominal)) => (on_model(feature, nominal, progress)?, feature.near(nominal).distance),
+                (_, Some(nominal)) => {
+                    (of_nominal(feature, nominal, progress)?, feature.near(nominal).distance)
+                }
                 (_, None) => (None, 0.0),
             };
             features.push(taken);
@@ -124,7 +183,7 @@ impl<'a> Model<'a> {
 }
 
 /// A feature with points of its nominal; `None` where these make no element.
-fn on_model(
+fn of_nominal(
     feature: &Feature,
     nominal: &Nominal,
     progress: &dyn Progress,

@@ -1,10 +1,10 @@
 //! The measured data parted among faces, and what of them is of a feature.
 
-use super::area::mesh_area;
 use super::measured;
 use super::nominals::Nominals;
 use super::own_faces::OwnFaces;
 use super::stop::{NominalFault, Stop};
+use crate::area::mesh_area;
 use crate::characteristic::{ExcludedPoints, Others};
 use crate::plan::Plan;
 use std::collections::BTreeMap;

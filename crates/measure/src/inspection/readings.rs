@@ -22,6 +22,11 @@ pub(super) struct OfModel<'a> {
 }
 
 impl OfModel<'_> {
+    /// The greatest value up to which the model keeps a tolerance: numbers of drawings are rounded.
+    pub fn rounded(&self, tolerance: f64) -> f64 {
+        tolerance.max(2.0 * DRAWN_ROUNDING_SHARE * self.reach)
+    }
+
     /// The same to be measured, of a characteristic that may say something else.
     pub fn measuring<'b>(&'b self, spec: &'b Spec) -> Measuring<'b> {
         Measuring { spec, features: &self.features, datums: &self.datums, progress: self.progress }
@@ -56,7 +61,7 @@ pub(super) fn compared(of: &OfModel) -> Result<Compared, Stop> {
         Limits::Between { .. } => 0.0,
     };
     let own = of.value(of.spec.basic);
-    let (rounded, most) = (tolerance.max(2.0 * DRAWN_ROUNDING_SHARE * of.reach), 2.0 * of.reach);
+    let (rounded, most) = (of.rounded(tolerance), 2.0 * of.reach);
     if own.as_ref().is_ok_and(|v| *v <= rounded) {
         return Ok(Compared::Alike);
     }

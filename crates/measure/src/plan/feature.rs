@@ -185,6 +185,12 @@ fn chosen_faces(
     if written.name.is_none() && numbers.is_empty() {
         return checker.wrong(&span, "the list of faces is empty; give the number of one at least");
     }
+    if written.name.as_ref().is_some_and(|name| name.value.trim().is_empty()) {
+        return checker.wrong(
+            &span,
+            "the name is empty; give the one that the file has for the faces, or their numbers by `face`",
+        );
+    }
     if !SOUGHT.contains(&class) {
         let what =
             format!("faces are sought as planes, cylinders, cones and spheres; a {} is not", class.word());

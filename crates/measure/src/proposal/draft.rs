@@ -29,11 +29,16 @@ pub(super) struct Draft<'f, 'm> {
     /// What stands in the plan: other features are left out.
     used: BTreeSet<String>,
     body: String,
+    /// Characteristics that the model contradicts, by their ids, and why.
+    refused: &'f Refused,
 }
+
+/// Characteristics that a plan shall not have, by their ids, and why.
+pub(super) type Refused = BTreeMap<String, String>;
 
 impl<'f, 'm> Draft<'f, 'm> {
     /// One without features.
-    pub fn of(faces: &'f Faces<'m>) -> Draft<'f, 'm> {
+    pub fn of(faces: &'f Faces<'m>, refused: &'f Refused) -> Draft<'f, 'm> {
         Draft {
             faces,
             order: vec![],
@@ -41,6 +46,7 @@ impl<'f, 'm> Draft<'f, 'm> {
             ids: BTreeMap::new(),
             used: BTreeSet::new(),
             body: String::new(),
+            refused,
         }
     }
 
@@ -66,9 +72,9 @@ impl<'f, 'm> Draft<'f, 'm> {
             [one] => writeln!(text, "face = {one}"),
             several => writeln!(text, "face = [{}]", listed(several)),
         };
-        if let Some((path, count)) = self.faces.instance(first) {
+        if let Some((path, count)) = self.faces.instance(group) {
             let others = comment(&format!("the first of {count} instances"));
-            let _ = writeln!(text, "{others}instance = {}", quoted(&path));
+            let _ = writeln!(text, "{others}instance = {}", quoted(path));
         }
         if let Some(internal) = group.internal.filter(|_| group.shape.kind() == Kind::Cylinder) {
             let _ = writeln!(text, "internal = {internal}");
@@ -111,8 +117,16 @@ impl<'f, 'm> Draft<'f, 'm> {
     ///
     /// # Errors
     /// Why plans cannot have it.
-    pub fn characteristic(&mut self, said: &str, lines: &str, features: &[String]) -> Result<(), String> {
-        let text = format!("\n{}[[characteristic]]\n{lines}", comment(said));
+    pub fn characteristic(
+        &mut self,
+        said: &str,
+        (id, lines): (&str, &str),
+        features: &[String],
+    ) -> Result<(), String> {
+        if let Some(why) = self.refused.get(id) {
+            return Err(why.clone());
+        }
+        let text = format!("\n{}[[characteristic]]\nid = {}\n{lines}", comment(said), quoted(id));
         let mut trial = TRIAL.to_string();
         let mut needed: Vec<&String> = features.iter().collect();
         let derived = features.iter().filter_map(|id| self.features.get(id)).flat_map(|f| &f.of);

@@ -34,8 +34,9 @@ pub(super) fn add(draft: &mut Draft, context: &Context, tolerance: &GeometricTol
             return Err(none.first().cloned().unwrap_or_else(|| "it has no faces".into()));
         }
         if let (true, Some(id)) = (made.is_of_middle, draft.median(&groups)) {
-            let lines = made.lines(&tolerance.entity.to_string(), &id, None, tolerance)?;
-            draft.characteristic(&said, &lines, &made.features(&id)).map(|()| none)
+            let number = tolerance.entity.to_string();
+            let lines = made.lines(&id, None, tolerance)?;
+            draft.characteristic(&said, (&number, &lines), &made.features(&id)).map(|()| none)
         } else {
             let several = groups.len() > 1;
             for (k, group) in groups.iter().enumerate() {
@@ -45,8 +46,9 @@ pub(super) fn add(draft: &mut Draft, context: &Context, tolerance: &GeometricTol
                 } else {
                     tolerance.entity.to_string()
                 };
-                let lines = made.lines(&number, &id, Some(group), tolerance);
-                let put = lines.and_then(|lines| draft.characteristic(&said, &lines, &made.features(&id)));
+                let lines = made.lines(&id, Some(group), tolerance);
+                let put = lines
+                    .and_then(|lines| draft.characteristic(&said, (&number, &lines), &made.features(&id)));
                 none.extend(put.err().map(|why| match several {
                     true => format!("{id}: {why}"),
                     false => why,
@@ -154,18 +156,12 @@ impl Prepared {
     /// The lines of a characteristic.
     fn lines(
         &self,
-        number: &str,
         id: &str,
         group: Option<&Group>,
         tolerance: &GeometricTolerance,
     ) -> Result<String, String> {
         let width = decimal(tolerance.width.unwrap_or_default());
-        let mut lines = format!(
-            "id = {}\nkind = \"{}\"\nfeature = {}\ntolerance = {width}\n",
-            quoted(number),
-            self.kind,
-            quoted(id)
-        );
+        let mut lines = format!("kind = \"{}\"\nfeature = {}\ntolerance = {width}\n", self.kind, quoted(id));
         let shape = group.map(|g| g.shape.kind());
         let is_axis = matches!(shape, Some(Kind::Cylinder | Kind::Cone));
         match &self.kind[..] {

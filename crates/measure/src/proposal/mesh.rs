@@ -1,7 +1,8 @@
 //! A plan proposed from the elements of a nominal mesh: every element a feature, with the usual characteristics.
 
+use super::draft::Refused;
 use super::text::{number_text, quoted, vector};
-use super::usual::usual;
+use super::usual::{as_found, usual};
 use crate::plan::DEFAULT_MIN_COVERAGE;
 use crate::plan::region::{facets_of, nominal_of};
 use std::collections::BTreeMap;
@@ -55,7 +56,7 @@ pub fn of_mesh(mesh: &Mesh, found: &Segmentation, reference: &str) -> String {
     if let Some(left) = without_region(mesh, found) {
         let _ = write!(out, "\n# {left}\n");
     }
-    out.push_str(&usual(&features));
+    out.push_str(&usual(&features, as_found, &Refused::new()));
     out
 }
 

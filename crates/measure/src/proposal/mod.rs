@@ -5,11 +5,17 @@ mod datums;
 mod dimension;
 mod draft;
 mod faces;
+mod general;
 mod geometric;
+mod legs;
 mod mesh;
 mod model;
+mod sides;
+#[cfg(test)]
+mod tests;
 mod text;
 mod usual;
 
+pub use general::{General, NoGeneral};
 pub use mesh::of_mesh;
-pub use model::of_model;
+pub use model::{Proposal, of_model};

@@ -2,28 +2,75 @@
 
 use super::datums::Datums;
 use super::dimension;
-use super::draft::Draft;
-use super::faces::Faces;
+use super::draft::{Draft, Refused};
+use super::faces::{Faces, Group};
+use super::general::{self, General};
 use super::geometric::{self, Context};
 use super::text::{comment, listed, quoted};
-use super::usual::usual;
+use super::usual::{as_drawn, usual};
+use crate::inspection::{Data, Stop, on_model};
+use crate::plan::Plan;
 use trueness_cad::model::Model;
+use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::shape::{Kind, Shape};
 
 /// Parts of keywords of entities that are lost tolerances where they cannot be read.
 const TOLERANCES: [&str; 3] = ["TOLERANCE", "DIMENSION", "DATUM"];
 
-/// The text of a plan for a model whose file is called `reference`. It parses. Each tolerance of the model is a characteristic, or a
-/// comment that says why plans have it not; counts of both stand at the end. A model without tolerances gives its planes, cylinders,
-/// cones and spheres as features with placeholders.
-pub fn of_model(model: &Model, reference: &str) -> String {
-    let faces = Faces::of(model);
-    let tolerances = &model.tolerances;
-    match tolerances.geometric.is_empty() && tolerances.dimensions.is_empty() && tolerances.datums.is_empty()
-    {
-        true => placeholders(&faces, reference),
-        false => with_tolerances(model, &faces, reference),
-    }
+/// What a proposal is asked.
+#[derive(Clone, Copy, Debug)]
+pub struct Proposal<'a> {
+    /// What the plan calls the file of the model.
+    pub reference: &'a str,
+    /// What holds where the model states no tolerance.
+    pub general: Option<&'a General>,
+}
+
+/// The text of a plan for a model. It parses, and `inspect` accepts it. Each tolerance of the model is a characteristic, or a comment that says
+/// why plans have it not; counts of both stand at the end. A model without tolerances gives its planes, cylinders, cones and spheres as
+/// features with the general tolerances, else with placeholders. What the model itself contradicts is a comment. `data` has the model as a
+/// reference: its faces and the mesh that draws them.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn of_model(
+    model: &Model,
+    data: &Data,
+    asked: &Proposal,
+    progress: &dyn Progress,
+) -> Result<String, Cancelled> {
+    let (Some(cad), Some(mesh)) = (&data.faces, &data.reference) else { return Ok(String::new()) };
+    let faces = Faces::of(cad, mesh);
+    let proposed = |refused: &Refused| match model.tolerances.is_empty() {
+        true => without_tolerances(&faces, asked, refused),
+        false => with_tolerances(model, &faces, asked, refused),
+    };
+    let first = proposed(&Refused::new());
+    Ok(match contradicted(&first, data, progress) {
+        Ok(refused) if refused.is_empty() => first,
+        Ok(refused) => proposed(&refused),
+        Err(Unheld::Cancelled(cancelled)) => return Err(cancelled),
+        Err(Unheld::Other(why)) => {
+            first + "\n" + &comment(&format!("The plan was not held against the model: {why}"))
+        }
+    })
+}
+
+/// Why a plan was not held against the model.
+enum Unheld {
+    Cancelled(Cancelled),
+    Other(String),
+}
+
+/// The characteristics that the model contradicts.
+fn contradicted(text: &str, data: &Data, progress: &dyn Progress) -> Result<Refused, Unheld> {
+    let plan = Plan::parse(text).map_err(|e| Unheld::Other(e.to_string()))?;
+    let found = on_model(&plan, data, progress).map_err(|stop| match stop {
+        Stop::Cancelled => Unheld::Cancelled(Cancelled),
+        stop => Unheld::Other(stop.to_string()),
+    })?;
+    let wrong = plan.specs.iter().zip(found).filter_map(|(spec, why)| Some((spec.id.clone(), why?)));
+    Ok(wrong.collect())
 }
 
 fn head(reference: &str, said: &str, align: &str) -> String {
@@ -39,12 +86,13 @@ const PLACEHOLDER_DEVIATION: &str = "\n# No feature can be judged: the deviation
 
 const BEST_FIT: &str = "# \"none\" where the scan lies in the coordinates of the model already.\n[align]\nmethod = \"best-fit\"\n";
 
-fn with_tolerances(model: &Model, faces: &Faces, reference: &str) -> String {
+fn with_tolerances(model: &Model, faces: &Faces, asked: &Proposal, refused: &Refused) -> String {
     let all = &model.tolerances;
-    let mut draft = Draft::of(faces);
+    let mut draft = Draft::of(faces, refused);
     let (datums, datums_in) = Datums::of(&mut draft, &all.datums);
     // Material requirements go by sizes, so these come first.
-    let dimensions_in = all.dimensions.iter().filter(|d| dimension::add(&mut draft, d)).count();
+    let dimensions_in =
+        all.dimensions.iter().filter(|d| dimension::add(&mut draft, d, asked.general)).count();
     let aligned = datums.most_used(&all.geometric);
     let context = Context { datums: &datums, aligned: aligned.as_ref() };
     let geometric_in = all.geometric.iter().filter(|t| geometric::add(&mut draft, &context, t)).count();
@@ -70,7 +118,7 @@ fn with_tolerances(model: &Model, faces: &Faces, reference: &str) -> String {
     let counts = counts.map(|(what, found, all)| {
         comment(&format!("{what} of the model: {found} in the plan, {} as comments", all - found))
     });
-    let mut out = head(reference, "Its tolerances are those of the model.", &align);
+    let mut out = head(asked.reference, "Its tolerances are those of the model.", &align);
     let is_judged = draft.is_judged();
     out.push_str(&draft.finished());
     out.push_str(if is_judged { "\n" } else { PLACEHOLDER_DEVIATION });
@@ -79,21 +127,33 @@ fn with_tolerances(model: &Model, faces: &Faces, reference: &str) -> String {
 }
 
 /// Every plane, cylinder, cone and sphere is a feature; the first plane is the datum.
-fn placeholders(faces: &Faces, reference: &str) -> String {
-    let said = "Tolerances are placeholders: put in those of the drawing, take out what is not toleranced.";
-    let mut draft = Draft::of(faces);
+fn without_tolerances(faces: &Faces, asked: &Proposal, refused: &Refused) -> String {
+    let said = match asked.general {
+        Some(_) => "Tolerances are the general ones: take out what the drawing does not tolerance so.",
+        None => "Tolerances are placeholders: put in those of the drawing, take out what is not toleranced.",
+    };
+    let mut draft = Draft::of(faces, refused);
     let (groups, none) = faces.groups(faces.numbers());
-    let mut features: Vec<(String, Shape)> = vec![];
+    let mut features: Vec<(String, Group)> = vec![];
     let mut datum = Some("A");
-    for group in &groups {
+    for group in groups {
         let wanted = if group.shape.kind() == Kind::Plane { datum.take() } else { None };
-        let id = draft.feature(group, wanted);
+        let id = draft.feature(&group, wanted);
         draft.keep(&id);
-        features.push((id, group.shape));
+        features.push((id, group));
     }
     if !none.is_empty() {
         draft.say(&format!("Faces that are no features of plans: {}.", none.join(", ")));
     }
-    let judged = if features.is_empty() { PLACEHOLDER_DEVIATION.into() } else { usual(&features) };
-    head(reference, said, BEST_FIT) + &draft.finished() + &judged
+    let judged = match asked.general {
+        Some(general) => general::characteristics(general, faces, &features, refused),
+        None => {
+            let shapes: Vec<(String, Shape)> =
+                features.into_iter().map(|(id, group)| (id, group.shape)).collect();
+            usual(&shapes, as_drawn, refused)
+        }
+    };
+    let is_judged = judged.lines().any(|line| line == "[[characteristic]]");
+    let judged = if is_judged { judged } else { judged + PLACEHOLDER_DEVIATION };
+    head(asked.reference, said, BEST_FIT) + &draft.finished() + &judged
 }

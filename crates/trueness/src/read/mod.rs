@@ -22,6 +22,7 @@ use trueness_files::{
     TableReading, Warning, open_from, open_normals_from,
 };
 use trueness_geom::closest::{MAX_COORDINATE, MAX_VERTEX};
+use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::{Progress, Silent};
 use trueness_geom::scan::Scan;
@@ -241,25 +242,14 @@ pub fn mesh(
     opened_mesh(path, role, open(sources, path, role, options)?)
 }
 
-/// A nominal that a plan is proposed from.
-pub enum Nominal {
-    /// A CAD model.
-    Cad(Box<CadFile>, InputRecord),
-    /// Facets.
-    Mesh(SourceMesh, InputRecord),
-}
-
-/// Reads a CAD model or a mesh; points are refused with a remedy.
-pub fn model_or_mesh(sources: &dyn Sources, path: &Path, options: &ReadOptions) -> Result<Nominal> {
-    match any(sources, path, Role::Reference, options)? {
-        Any::Cad(file, record) => Ok(Nominal::Cad(file, record)),
-        Any::Whole(opened) => {
-            let (mesh, record) = opened_mesh(path, Role::Reference, opened)?;
-            Ok(Nominal::Mesh(mesh, record))
-        }
-        Any::Splines(model, record) => Err(unread::refusal(path, &model, &record, MESH_OR_POINTS)),
-        Any::Drawing(..) => Err(no_drawing(path)),
-    }
+/// The faces of a CAD model as a reference, and the mesh that draws them.
+pub fn faces(
+    path: &Path,
+    file: &CadFile,
+    record: &mut InputRecord,
+    progress: &dyn Progress,
+) -> Result<(CadFaces, Mesh)> {
+    cad::faces(path, file, Chord::MEASURED, record, progress)
 }
 
 fn opened_mesh(path: &Path, role: Role, opened: Opened) -> Result<(SourceMesh, InputRecord)> {

@@ -5,11 +5,14 @@ use crate::task::{Done, Outcome, Output, Reading, Request, RunFiles, TaskError, 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
-use trueness_document::InputRecord;
+use std::sync::Arc;
+use trueness_document::{InputRecord, Role};
 use trueness_files::Sources;
+use trueness_files::cad::CadFile;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::segment::{self, Options, SegmentError};
-use trueness_measure::proposal;
+use trueness_measure::inspection::Data;
+use trueness_measure::proposal::{self, General, Proposal};
 
 /// What a proposal is asked.
 ///
@@ -29,6 +32,8 @@ pub struct PlanInitRequest {
     /// How it is taken.
     #[serde(flatten)]
     pub reading: Reading,
+    /// General tolerances for what a CAD model states none for, as `ISO2768-mK`.
+    pub general: Option<String>,
     /// Where to write the plan: a new file.
     pub out: Option<PathBuf>,
     /// Seed of everything random.
@@ -58,10 +63,16 @@ impl Request for PlanInitRequest {
             let text = format!("--out {}: the file exists; name another or remove it", path.display());
             return Err(TaskError::usage(text));
         }
+        let general = self.general.as_ref().map(|text| text.parse::<General>());
+        let general = general.transpose().map_err(|e| TaskError::usage(format!("--general: {e}")))?;
         let reading = self.reading.options();
-        let (text, mut record) = match read::model_or_mesh(sources, &self.nominal, &reading)? {
-            read::Nominal::Cad(file, record) => (proposal::of_model(&file.model, &self.reference()), record),
-            read::Nominal::Mesh(source, record) => (self.of_mesh(&source.mesh, watch)?, record),
+        let (text, mut record) = match read::mesh_or_cad(sources, &self.nominal, Role::Reference, &reading)? {
+            (read::MeshOrCad::Cad(file), record) => self.of_model(&file, record, general.as_ref(), watch)?,
+            (read::MeshOrCad::Mesh(_), _) if general.is_some() => {
+                let what = "--general is for CAD models: of a mesh the faces are not known exactly";
+                return Err(TaskError::usage(what));
+            }
+            (read::MeshOrCad::Mesh(source), record) => (self.of_mesh(&source.mesh, watch)?, record),
         };
         read::hash(sources, &mut record, &self.nominal)?;
         let mut done = Done::with_outcome(ProposedPlan { inputs: vec![record], text }, Outcome::Conforming);
@@ -74,6 +85,22 @@ impl Request for PlanInitRequest {
 }
 
 impl PlanInitRequest {
+    /// The plan for a CAD model, and what is said of its file.
+    fn of_model(
+        &self,
+        file: &CadFile,
+        mut record: InputRecord,
+        general: Option<&General>,
+        watch: &dyn Watch,
+    ) -> Result<(String, InputRecord), TaskError> {
+        let stage = watch.stage("proposing", "faces", None);
+        let read = read::faces(&self.nominal, file, &mut record, &*stage)?;
+        let data = Data { reference: Some(read.1), faces: Some(Arc::new(read.0)), ..Data::default() };
+        let asked = Proposal { reference: &self.reference(), general };
+        let text = proposal::of_model(&file.model, &data, &asked, &*stage);
+        Ok((ended(stage, text).map_err(TaskError::from)?, record))
+    }
+
     /// The plan for the elements of a mesh.
     fn of_mesh(&self, mesh: &Mesh, watch: &dyn Watch) -> Result<String, TaskError> {
         let stage = watch.stage("segmenting", "facets", Some(mesh.faces.len() as u64));
