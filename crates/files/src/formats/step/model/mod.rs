@@ -7,10 +7,13 @@
 mod assembly;
 mod curve;
 mod face;
+mod groups;
+mod links;
 mod looks;
 mod part;
 mod placement;
 mod read;
+mod representation;
 mod shape;
 mod surface;
 #[cfg(test)]

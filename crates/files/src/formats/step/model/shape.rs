@@ -3,6 +3,7 @@
 use super::super::part21::{Entity, Record, Wrong};
 use super::curve::is_curve;
 use super::face::Faces;
+use super::links::names_shapes;
 use super::placement::operator;
 use super::surface::{Oriented, is_surface};
 use super::topology::Topology;
@@ -152,7 +153,9 @@ impl<'f> Shapes<'f> {
                 self.wires += 1;
                 Ok(())
             }
-            Item::Mapped | Item::Placement | Item::Other => Ok(()),
+            Item::Mapped | Item::Placement => Ok(()),
+            Item::Other if !names_shapes(self.faces.topology.geometry.file, entity) => Ok(()),
+            Item::Other => Err(record.wrong("is of a kind that is not known, and names shapes")),
             Item::Unknown => Err(record.wrong(explained(record.keyword))),
         }
     }
@@ -198,7 +201,8 @@ impl<'f> Shapes<'f> {
         if item(&original) != Item::Solid {
             return Err(record.wrong("is a replica of what is no solid that is read"));
         }
-        let faces = Faces::new(Topology::new(geometry), self.faces.looks, self.faces.progress);
+        let faces =
+            Faces::new(Topology::new(geometry), self.faces.looks, self.faces.progress, self.faces.reached);
         let mut inner = Shapes::new(faces);
         inner.solid(&original, color)?;
         let made = &inner.faces.topology.brep;
