@@ -12,7 +12,6 @@ use trueness::tasks::align::AlignRequest;
 use trueness::tasks::check::CheckRequest;
 use trueness::tasks::compare::CompareRequest;
 use trueness::tasks::convert::ConvertRequest;
-use trueness::tasks::curvature::CurvatureRequest;
 use trueness::tasks::fit::FitRequest;
 use trueness::tasks::info::InfoRequest;
 use trueness::tasks::inspect::InspectRequest;
@@ -103,7 +102,6 @@ fn all(sources: &MemorySources, folder: &Path) -> Vec<(&'static str, Outcome, St
         run::<SectionRequest>(json!({"input": model, "plane": [[0.0, 0.0, 1.0, 5.0]]}), sources),
         run::<SegmentRequest>(json!({"input": model}), sources),
         run::<FitRequest>(json!({"points": model, "shape": "sphere"}), sources),
-        run::<CurvatureRequest>(json!({"input": model}), sources),
     ]
 }
 
@@ -123,10 +121,9 @@ fn nothing_passes_over_an_incomplete_model() {
         assert!(outcome == Outcome::NotConforming || !JUDGES.contains(&command), "{command}");
     }
     for (command, outcome, warnings) in all(&sources("nothing"), &folder) {
-        assert!(
-            !warnings.contains("faces") && outcome == Outcome::Conforming,
-            "{command}: {outcome:?} {warnings}"
-        );
+        // A block fits into itself in several poses.
+        let passes = outcome == Outcome::Conforming || command == "align";
+        assert!(!warnings.contains("faces") && passes, "{command}: {outcome:?} {warnings}");
     }
     std::fs::remove_dir_all(&folder).unwrap();
 }
