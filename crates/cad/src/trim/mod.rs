@@ -24,7 +24,7 @@ pub use error::TrimError;
 pub use ring::{Piece, Ring, Straight};
 pub use strand::{Sample, Strand, crossing};
 
-use crate::brep::{Bounds, Brep, EdgeUse, Face};
+use crate::brep::{Bounds, Brep, EdgeUse, Face, Loop};
 use crate::curve::Span;
 use chart::SAME_PARAMETER;
 use outline::Outline;
@@ -78,7 +78,7 @@ impl Trim {
                 match border.trim(&uses, false) {
                     Err(TrimError::Contradiction) => {
                         let turned = chain::bounding_uses(loops, !face.reversed)?;
-                        border.trim(&turned, true).or_else(|_| senses::only(&border, loops))
+                        border.trim(&turned, true).or_else(|_| border.few_turned(loops))
                     }
                     other => other,
                 }
@@ -190,6 +190,22 @@ impl<'a> Border<'a> {
         let most_open = (MOST_UNCERTAINTIES * uncertainty).max(MOST_GAP_SHARE * size);
         let reach = uncertainty.max(REACH_SHARE * size);
         Ok(Border { face, chart, edges, spans, reach, most_open })
+    }
+
+    /// The only trim with as few turned loops as can be.
+    fn few_turned(&self, loops: &[Loop]) -> Result<Trim, TrimError> {
+        for choices in senses::choices(loops) {
+            let mut found = choices.iter().filter_map(|loops| {
+                let uses = chain::bounding_uses(loops, self.face.reversed).ok()?;
+                self.trim(&uses, true).ok()
+            });
+            match (found.next(), found.next()) {
+                (Some(only), None) => return Ok(only),
+                (Some(_), Some(_)) => break,
+                (None, _) => {}
+            }
+        }
+        Err(TrimError::Contradiction)
     }
 
     fn trim(&self, uses: &[Vec<EdgeUse>], turned: bool) -> Result<Trim, TrimError> {

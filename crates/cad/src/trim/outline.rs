@@ -34,9 +34,6 @@ const BAND_OF_HALF: f64 = 0.35;
 /// Rounding of parameters, as a share of the window.
 const ROUNDED: f64 = 16.0 * f64::EPSILON;
 
-/// Places of a ring at which its place among the others is looked at.
-const PLACES_OF_RING: usize = 9;
-
 /// Where a place is to a side.
 enum Turn {
     Apart(i32),
@@ -111,7 +108,7 @@ impl Outline {
     /// hole within one. Decided by the polygons, at several places of each ring, most of which do not lie upon another one.
     pub fn nests(&self) -> bool {
         let rings = self.segments.last().map_or(0, |s| s.piece.0 + 1);
-        rings < 2 || (0..rings).all(|ring| self.is_placed(ring))
+        (0..rings).all(|ring| self.is_placed(ring))
     }
 
     fn is_placed(&self, ring: usize) -> bool {
@@ -123,9 +120,8 @@ impl Outline {
             a[0] * b[1] - a[1] * b[0]
         };
         let wanted = i32::from(own.iter().map(cross).sum::<f64>() < 0.0);
-        let step = own.len().div_ceil(PLACES_OF_RING);
         let (mut right, mut wrong) = (0, 0);
-        for place in own.iter().step_by(step).map(|s| [0, 1].map(|k| 0.5 * (s.ends[0][k] + s.ends[1][k]))) {
+        for place in own.iter().map(|s| [0, 1].map(|k| 0.5 * (s.ends[0][k] + s.ends[1][k]))) {
             match self.winding_of_others(ring, place) == wanted {
                 true => right += 1,
                 false => wrong += 1,

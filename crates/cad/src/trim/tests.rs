@@ -1,7 +1,7 @@
 //! Faces as files give them: with and without seams, around and not, over poles.
 
 use super::*;
-use crate::brep::{Edge, EdgeUse, Loop, Vertex};
+use crate::brep::{Edge, EdgeUse, Vertex};
 use crate::curve::Curve;
 use crate::frame::Frame;
 use crate::surface::Surface;

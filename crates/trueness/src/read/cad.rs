@@ -34,9 +34,6 @@ const FACET_ANGLE: f64 = std::f64::consts::PI / 12.0;
 /// Facets of a model at most.
 const MAX_FACETS: usize = 16_000_000;
 
-/// Facets finer than this share of the diagonal are beyond the numbers of most files of meshes (single precision).
-const LEAST_CHORD_SHARE: f64 = 1e-7;
-
 /// A model where its parts stand, and its facets with the face of each. The document is told of faces that are missing, and of those that
 /// contradicted their neighbors and were turned.
 pub fn tessellated(
@@ -47,7 +44,7 @@ pub fn tessellated(
     progress: &dyn Progress,
 ) -> Result<(Trimmed, SourceMesh), TaskError> {
     let (shape, turned) = Trimmed::of(&file.model, progress)?.agreed();
-    tell_turned(record, turned.len());
+    tell_turned(record, &turned);
     let made = divided(path, file, &shape, chord, record, progress)?;
     if made.mesh.faces.is_empty() {
         return Err(TaskError::unanswerable(format!("{}: {}", path.display(), nothing_drawn(&shape, &made))));
@@ -99,9 +96,11 @@ fn divided(
     progress: &dyn Progress,
 ) -> Result<Tessellation, TaskError> {
     let size = shape.bounds().diagonal();
+    // Most files of meshes hold single precision.
+    let finest = f64::from(f32::EPSILON) * size;
     let distance = match chord {
-        Chord::Within(distance) if distance < LEAST_CHORD_SHARE * size => {
-            let least = 1.01 * LEAST_CHORD_SHARE * size;
+        Chord::Within(distance) if distance < finest => {
+            let least = 1.01 * finest;
             return Err(TaskError::usage(format!(
                 "--chord {distance:e}: facets of a part of {size:.3} mm cannot lie so near to its faces in the numbers of a mesh; give {least:.2e} mm or more"
             )));
@@ -136,8 +135,9 @@ pub fn tell_missing(file: &CadFile, shape: &Trimmed, read: u64, record: &mut Inp
 }
 
 /// Tells the document of faces that were turned.
-pub fn tell_turned(record: &mut InputRecord, count: usize) {
-    if count > 0 {
+pub fn tell_turned(record: &mut InputRecord, faces: &[u32]) {
+    if !faces.is_empty() {
+        let count = faces.len();
         record.warnings.push(format!(
             "{count} face(s) look the other way than their neighbors and were turned, so that closed shells look outward; `trueness check` names them"
         ));

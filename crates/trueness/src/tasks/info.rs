@@ -112,7 +112,7 @@ fn cad(file: &CadFile, mut record: InputRecord, watch: &dyn Watch) -> Result<Inf
     let stage = watch.stage("integrating", "faces", Some(faces));
     let integrals = shape.integrals(&*stage)?;
     stage.finish();
-    read::cad::tell_turned(&mut record, turned.len());
+    read::cad::tell_turned(&mut record, &turned);
     read::cad::tell_missing(file, &shape, integrals.iter().flatten().count() as u64, &mut record);
     Ok(InfoDocument {
         bounds: sides(shape.bounds()),

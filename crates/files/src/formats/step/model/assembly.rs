@@ -5,10 +5,10 @@
 
 use super::super::part21::{Entity, File, Record, Wrong};
 use super::groups::{Groups, TRANSFORMED, is_plain};
+use super::item::{Item, item};
 use super::links::leads_on;
 use super::placement::{Units, frame, operator, target};
 use super::representation::Representation;
-use super::shape::{Item, item};
 use crate::formats::brep::tree::{self, Child};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use trueness_cad::frame::Placement;

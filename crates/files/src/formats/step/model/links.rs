@@ -2,7 +2,7 @@
 
 use super::super::part21::{Entity, File, Value, Wrong};
 use super::groups::TRANSFORMED;
-use super::shape::{Item, item};
+use super::item::{Item, item};
 use crate::formats::brep::MAX_TOLD;
 use std::collections::BTreeSet;
 use trueness_cad::model::Unread;

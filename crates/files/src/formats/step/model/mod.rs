@@ -8,6 +8,7 @@ mod assembly;
 mod curve;
 mod face;
 mod groups;
+mod item;
 mod links;
 mod looks;
 mod part;

@@ -72,7 +72,10 @@ pub(crate) fn read(
         }
     }
     let mut tree: Vec<Node> = assembly.nodes.iter_mut().map(|node| std::mem::take(&mut node.tree)).collect();
-    assembly.unread.extend(homeless(&assembly, &tree, &parts, &file));
+    assembly.unread.extend(homeless(&assembly, &tree, &file, |node| {
+        let part = parts[node].and_then(|(part, _)| model.parts.get(part as usize));
+        part.is_some_and(|part| !part.brep.faces.is_empty())
+    }));
     let made = instances(&mut tree, &parts, |entity| looks.color(entity))?;
     (model.instances, model.depth) = (made.instances, made.levels);
     assembly.unread.extend(made.cut.into_iter().map(cut));
@@ -118,15 +121,18 @@ fn unplaced() -> Unread {
 
 /// Representations with faces that belong to no product and stand in none, beside products: where they stand is not known. A file
 /// without products is a part as it stands.
-fn homeless(assembly: &Assembly, tree: &[Node], parts: &[Option<(u32, u64)>], file: &File) -> Vec<Unread> {
+fn homeless(
+    assembly: &Assembly,
+    tree: &[Node],
+    file: &File,
+    has_faces: impl Fn(usize) -> bool,
+) -> Vec<Unread> {
     let placed: BTreeSet<usize> = tree.iter().flat_map(|n| &n.children).map(|c| c.node).collect();
     if !file.entities().any(|e| e.record("SHAPE_DEFINITION_REPRESENTATION").is_some()) {
         return vec![];
     }
-    let is_lost = |n: usize| {
-        !assembly.nodes[n].is_product && !placed.contains(&n) && parts[n].is_some_and(|(_, faces)| faces > 0)
-    };
-    let lost = (0..parts.len()).filter(|n| is_lost(*n));
+    let is_lost = |n: &usize| !assembly.nodes[*n].is_product && !placed.contains(n) && has_faces(*n);
+    let lost = (0..assembly.nodes.len()).filter(is_lost);
     let told = |n: usize| {
         let entity = file.entity(*assembly.nodes[n].representations.first()?).ok()?;
         let line = entity.wrong("").line;

@@ -104,7 +104,7 @@ fn what_is_lost_is_told() {
             }
         }
     }
-    assert!(count > 1000 && silent.is_empty(), "{count} {silent:#?}");
+    assert!(silent.is_empty(), "of {count}: {silent:#?}");
 }
 
 #[test]
