@@ -84,7 +84,7 @@ fn models() -> Vec<String> {
         RATIONAL_B_SPLINE_SURFACE(((1.,0.7,1.),(1.,0.7,1.)))REPRESENTATION_ITEM('')SURFACE());\n\
         #60=CARTESIAN_POINT('',(1.,0.,0.));\n#61=CARTESIAN_POINT('',(1.,1.,0.));\n#62=CARTESIAN_POINT('',(0.,1.,0.));\n\
         #63=CARTESIAN_POINT('',(1.,0.,2.));\n#64=CARTESIAN_POINT('',(1.,1.,2.));\n#65=CARTESIAN_POINT('',(0.,1.,2.));\n";
-    let products = [assembly, apart, mapped.into(), replica.into(), hollow.into()];
+    let products = [assembly, apart, mapped, replica, hollow];
     let mut all: Vec<String> = products.iter().map(|p| whole(&(base() + p))).collect();
     all.push(part("#50", &FACES.replace("\n    ", "\n").replace(";#", ";\n#")));
     all.push(part("#50", spline));
