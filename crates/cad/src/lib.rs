@@ -17,6 +17,7 @@
 //! | datums, geometric tolerances, dimensions of a model | [`tolerances`] |
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
 
+mod agree;
 pub mod brep;
 pub mod check;
 pub mod curve;

@@ -1,5 +1,6 @@
 //! A boundary whose faces are cut out of their surfaces: what areas, volumes, facets and distances are taken from.
 
+use crate::agree::agree;
 use crate::brep::{Brep, Solid};
 use crate::measure::{self, Integrals};
 use crate::model::Model;
@@ -39,6 +40,13 @@ impl Trimmed {
         };
         let trims = brep.faces.par_iter().map(trim).collect::<Result<_, _>>()?;
         Ok(Trimmed { brep, trims })
+    }
+
+    /// The same with closed shells that look out of what they enclose where the file contradicts itself; the faces that were turned.
+    #[must_use]
+    pub fn agreed(mut self) -> (Trimmed, Vec<u32>) {
+        let turned = agree(&mut self.brep, &mut self.trims);
+        (self, turned)
     }
 
     /// The trims, `None` for a face that has none.

@@ -238,7 +238,7 @@ impl ResultDocument for AlignDocument {
     /// whole nothing is proven.
     fn conforms(&self) -> bool {
         let whole = self.inputs.iter().all(|i| i.role != Role::Reference || i.incomplete.is_none());
-        self.sound() && self.zones.as_ref().is_none_or(|z| z.beyond == 0 && whole)
+        self.sound() && whole && self.zones.as_ref().is_none_or(|z| z.beyond == 0)
     }
 }
 

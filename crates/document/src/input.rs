@@ -129,6 +129,11 @@ impl InputRecord {
         }
     }
 
+    /// Whether it is a CAD model some of whose faces could not be read.
+    pub fn lacks_faces(&self) -> bool {
+        self.cad.is_some() && self.incomplete.is_some()
+    }
+
     /// What was taken for what in a table of text, as one line for people.
     pub fn reading(&self) -> Option<String> {
         let table = self.table.as_ref()?;

@@ -23,7 +23,7 @@ pub struct RepairDocument {
     pub inputs: Vec<InputRecord>,
     /// The file written.
     pub output: OutputRecord,
-    /// The mesh is sound now, still is when the file written is read again, and the part was not changed.
+    /// The mesh is sound now, still is when the file written is read again, the part was not changed, and all faces of a CAD model were read.
     pub sound: bool,
     /// Size and defects before.
     pub before: State,

@@ -51,6 +51,11 @@ pub enum ScanWarning {
     },
     /// A geographic file without coordinate system, so without a unit.
     UnitUnstated,
+    /// What the file says of its unit is of no use, and the user named one, which was taken.
+    UnitUnusable {
+        /// Why.
+        why: String,
+    },
     /// The file gives its lengths in feet.
     Feet {
         /// The unit.
@@ -104,6 +109,9 @@ impl fmt::Display for ScanWarning {
             }
             ScanWarning::UnitUnstated => {
                 write!(f, "the file names no coordinate system, so no unit of length; --units says it")
+            }
+            ScanWarning::UnitUnusable { why } => {
+                write!(f, "{why}; the numbers were taken in the unit that --units names, whatever they are")
             }
             ScanWarning::Feet { unit } => write!(f, "the file gives lengths in {}", long_name(*unit)),
             ScanWarning::HeightUnit { taken, height } => write!(

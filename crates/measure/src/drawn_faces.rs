@@ -47,7 +47,9 @@ impl DrawnFaces {
             color: face.color,
         });
         let line = |(edge, _): (&Edge, _)| line(&edge.span, within);
-        let edges = brep.edges.iter().zip(borders(brep)).filter(|(_, is_border)| *is_border).map(line);
+        // Without a facet nothing says how fine a line must be.
+        let borders = if mesh.faces.is_empty() { vec![] } else { borders(brep) };
+        let edges = brep.edges.iter().zip(borders).filter(|(_, is_border)| *is_border).map(line);
         DrawnFaces { faces: faces.collect(), of_facet, edges: edges.collect() }
     }
 }

@@ -49,8 +49,11 @@ pub fn document(repaired: &Repaired, options: &Options, around: Around) -> Repai
         schema: SCHEMA.into(),
         version: VERSION.into(),
         units: UNITS.into(),
+        sound: repaired.after.sound
+            && around.output.sound != Some(false)
+            && !effect.changed
+            && !around.file.lacks_faces(),
         inputs: vec![around.file],
-        sound: repaired.after.sound && around.output.sound != Some(false) && !effect.changed,
         output: around.output,
         before,
         after,

@@ -14,6 +14,7 @@ mod error;
 mod open;
 mod outline;
 mod ring;
+mod senses;
 mod strand;
 #[cfg(test)]
 pub(crate) mod tests;
@@ -23,7 +24,7 @@ pub use error::TrimError;
 pub use ring::{Piece, Ring, Straight};
 pub use strand::{Sample, Strand, crossing};
 
-use crate::brep::{Bounds, Brep, EdgeUse, Face};
+use crate::brep::{Bounds, Brep, EdgeUse, Face, Loop};
 use crate::curve::Span;
 use chart::SAME_PARAMETER;
 use outline::Outline;
@@ -36,7 +37,8 @@ pub struct Trim {
     pub chart: Chart,
     /// Whether the outward normal is opposite to `∂u × ∂v`.
     pub reversed: bool,
-    /// Whether the loops bound nothing as the file has them, and were gone along the other way: the side of the normal is then in doubt.
+    /// Whether the loops bound nothing as the file has them, and all or some were gone along the other way: the side of the normal is then in
+    /// doubt.
     pub turned: bool,
     /// Closed lines around the face, with the face on their left; all within `window`.
     pub rings: Vec<Ring>,
@@ -76,7 +78,7 @@ impl Trim {
                 match border.trim(&uses, false) {
                     Err(TrimError::Contradiction) => {
                         let turned = chain::bounding_uses(loops, !face.reversed)?;
-                        border.trim(&turned, true).map_err(|_| TrimError::Contradiction)
+                        border.trim(&turned, true).or_else(|_| border.few_turned(loops))
                     }
                     other => other,
                 }
@@ -128,7 +130,7 @@ impl Trim {
     fn of_rings(parts: Parts, reach: f64) -> Result<Trim, TrimError> {
         let Parts { chart, reversed, turned, rings, cuts, gap, edges, spans } = parts;
         let outline = Outline::new(&rings);
-        if outline.area().is_nan() || outline.area() <= 0.0 {
+        if outline.area().is_nan() || outline.area() <= 0.0 || !outline.nests() {
             return Err(TrimError::Contradiction);
         }
         if let Some([a, b]) = outline.crossing(&rings, &chart, 4.0 * gap + reach) {
@@ -188,6 +190,22 @@ impl<'a> Border<'a> {
         let most_open = (MOST_UNCERTAINTIES * uncertainty).max(MOST_GAP_SHARE * size);
         let reach = uncertainty.max(REACH_SHARE * size);
         Ok(Border { face, chart, edges, spans, reach, most_open })
+    }
+
+    /// The only trim with as few turned loops as can be.
+    fn few_turned(&self, loops: &[Loop]) -> Result<Trim, TrimError> {
+        for choices in senses::choices(loops) {
+            let mut found = choices.iter().filter_map(|loops| {
+                let uses = chain::bounding_uses(loops, self.face.reversed).ok()?;
+                self.trim(&uses, true).ok()
+            });
+            match (found.next(), found.next()) {
+                (Some(only), None) => return Ok(only),
+                (Some(_), Some(_)) => break,
+                (None, _) => {}
+            }
+        }
+        Err(TrimError::Contradiction)
     }
 
     fn trim(&self, uses: &[Vec<EdgeUse>], turned: bool) -> Result<Trim, TrimError> {

@@ -104,6 +104,40 @@ impl Outline {
         self.segments.iter().map(of).sum()
     }
 
+    /// Whether each ring has the face on its left and nothing on its right: one that runs around the face lies in no other one, one around a
+    /// hole within one. Decided by the polygons, at several places of each ring, most of which do not lie upon another one.
+    pub fn nests(&self) -> bool {
+        let rings = self.segments.last().map_or(0, |s| s.piece.0 + 1);
+        (0..rings).all(|ring| self.is_placed(ring))
+    }
+
+    fn is_placed(&self, ring: usize) -> bool {
+        let own: Vec<&Segment> = self.segments.iter().filter(|s| s.piece.0 == ring).collect();
+        let Some(first) = own.first() else { return true };
+        let origin = first.ends[0];
+        let cross = |s: &&Segment| {
+            let [a, b] = s.ends.map(|p| [p[0] - origin[0], p[1] - origin[1]]);
+            a[0] * b[1] - a[1] * b[0]
+        };
+        let wanted = i32::from(own.iter().map(cross).sum::<f64>() < 0.0);
+        let (mut right, mut wrong) = (0, 0);
+        for place in own.iter().map(|s| [0, 1].map(|k| 0.5 * (s.ends[0][k] + s.ends[1][k]))) {
+            match self.winding_of_others(ring, place) == wanted {
+                true => right += 1,
+                false => wrong += 1,
+            }
+        }
+        right >= wrong
+    }
+
+    /// How often the polygons of the other rings wind around a place.
+    fn winding_of_others(&self, ring: usize, p: [f64; 2]) -> i32 {
+        let row = self.row(p[1], self.first.len() - 1);
+        let listed = &self.lists[self.first[row] as usize..self.first[row + 1] as usize];
+        let others = listed.iter().map(|i| &self.segments[*i as usize]).filter(|s| s.piece.0 != ring);
+        others.map(|s| s.upward(p)).sum()
+    }
+
     /// Whether the rings wind around a place, or it lies on one; `at` gives the parameters of a piece at a share of its edge.
     pub fn contains(&self, p: [f64; 2], at: impl Fn(PieceId, f64) -> [f64; 2]) -> bool {
         let is_outside = (0..2).any(|k| {
@@ -185,12 +219,18 @@ impl Segment {
                 }
             }
         }
+        Turn::Apart(self.upward(p))
+    }
+
+    /// How often the straight line between its ends crosses the ray from a place along `u` upward.
+    fn upward(&self, p: [f64; 2]) -> i32 {
+        let [a, b] = self.ends;
         let side = (b[0] - a[0]) * (p[1] - a[1]) - (p[0] - a[0]) * (b[1] - a[1]);
-        Turn::Apart(match (a[1] <= p[1], b[1] <= p[1]) {
+        match (a[1] <= p[1], b[1] <= p[1]) {
             (true, false) if side > 0.0 => 1,
             (false, true) if side < 0.0 => -1,
             _ => 0,
-        })
+        }
     }
 
     /// Whether a place is on the straight line between its ends, up to its band.

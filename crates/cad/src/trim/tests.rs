@@ -1,7 +1,7 @@
 //! Faces as files give them: with and without seams, around and not, over poles.
 
 use super::*;
-use crate::brep::{Edge, EdgeUse, Loop, Vertex};
+use crate::brep::{Edge, EdgeUse, Vertex};
 use crate::curve::Curve;
 use crate::frame::Frame;
 use crate::surface::Surface;
@@ -103,9 +103,12 @@ fn a_band_of_a_cylinder_needs_no_seam() {
         // Inside out: as a bore.
         let face = made.face(surface.clone(), true, &[&[(low, true)], &[(high, false)]]);
         assert!(Trim::new(&made.brep, &face, 0.0).is_ok());
-        // Both circles the same way around.
-        let face = made.face(surface.clone(), false, &[&[(low, false)], &[(high, false)]]);
-        assert_eq!(Trim::new(&made.brep, &face, 0.0).unwrap_err(), TrimError::Contradiction);
+        // Both circles the same way around: only the band between them bounds an area.
+        for reversed in [false, true] {
+            let face = made.face(surface.clone(), false, &[&[(low, reversed)], &[(high, reversed)]]);
+            let trim = Trim::new(&made.brep, &face, 0.0).unwrap();
+            assert!(trim.turned && (parameter_area(&trim) - 3.0 * TAU).abs() < 1e-9);
+        }
         // The band outside of them: gone along the other way, and told.
         let face = made.face(surface, false, &[&[(low, true)], &[(high, false)]]);
         let trim = Trim::new(&made.brep, &face, 0.0).unwrap();
@@ -292,5 +295,26 @@ fn polygons_and_edges_agree_close_to_the_border() {
                 || trim.contains([u, v]) == inside,
             "{off}"
         );
+    }
+}
+
+/// A plate with two holes, every loop either way: the holes are holes, and what runs wrong is told.
+#[test]
+fn holes_are_holes_whatever_way_they_run() {
+    let frame = frame(7);
+    let mut made = Made::default();
+    let at = |x: f64| Frame { origin: frame.place([x, 0.0, 0.0]), ..frame };
+    let loops = [(0.0, 5.0), (-2.0, 1.0), (2.5, 1.5)].map(|(x, r)| made.edge(circle(&at(x), 0.0, r, 0.3)));
+    for senses in 0..8u32 {
+        let uses: Vec<[(u32, bool); 1]> = (0..3).map(|k| [(loops[k], senses >> k & 1 == 1)]).collect();
+        let uses: Vec<&[(u32, bool)]> = uses.iter().map(|u| &u[..]).collect();
+        let face = made.face(Surface::Plane(frame), false, &uses);
+        let trim = Trim::new(&made.brep, &face, 0.0).unwrap();
+        assert_eq!(trim.turned, senses != 0b110, "{senses:b}");
+        for (place, inside) in
+            [([0.0, 0.0], true), ([-2.0, 0.0], false), ([2.5, 0.5], false), ([0.0, 4.9], true)]
+        {
+            assert_eq!(trim.contains(place), inside, "{senses:b} {place:?}");
+        }
     }
 }

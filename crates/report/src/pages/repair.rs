@@ -11,6 +11,7 @@ use crate::values::{Name, Text};
 use crate::views::repair::{GONE, NEW, by_step};
 use maud::{Markup, Render, html};
 use std::collections::BTreeSet;
+use trueness_document::InputRecord;
 use trueness_document::repair::{Change, Distances, RepairDocument, State};
 use trueness_document::scale::palette::category;
 
@@ -73,6 +74,7 @@ fn headline(d: &RepairDocument) -> Headline {
         (true, 0) => ("nothing_to_repair", Tone::Pass),
         (true, _) => ("repaired", Tone::Pass),
         (false, _) if d.after.sound && d.effect.changed => ("closed_but_changed", Tone::Fail),
+        (false, _) if d.inputs.iter().any(InputRecord::lacks_faces) => ("incomplete_model", Tone::Fail),
         (false, _) => ("not_repaired", Tone::Fail),
     };
     Headline { key, tone }

@@ -34,7 +34,8 @@ const FACET_ANGLE: f64 = std::f64::consts::PI / 12.0;
 /// Facets of a model at most.
 const MAX_FACETS: usize = 16_000_000;
 
-/// A model where its parts stand, and its facets with the face of each. The document is told of faces that are missing.
+/// A model where its parts stand, and its facets with the face of each. The document is told of faces that are missing, and of those that
+/// contradicted their neighbors and were turned.
 pub fn tessellated(
     path: &Path,
     file: &CadFile,
@@ -42,7 +43,12 @@ pub fn tessellated(
     record: &mut InputRecord,
     progress: &dyn Progress,
 ) -> Result<(Trimmed, SourceMesh), TaskError> {
-    let (shape, made) = drawn(path, file, chord, record, progress)?;
+    let (shape, turned) = Trimmed::of(&file.model, progress)?.agreed();
+    tell_turned(record, &turned);
+    let made = divided(path, file, &shape, chord, record, progress)?;
+    if made.mesh.faces.is_empty() {
+        return Err(TaskError::unanswerable(format!("{}: {}", path.display(), nothing_drawn(&shape, &made))));
+    }
     let name = |face: &trueness_cad::brep::Face| match face.name.trim() {
         "" => format!("face {}", face.entity),
         name => name.to_string(),
@@ -52,7 +58,22 @@ pub fn tessellated(
     Ok((shape, SourceMesh { mesh: made.mesh, regions, ..SourceMesh::default() }))
 }
 
-/// A model where its parts stand, and its facets and lines along edges. The document is told of faces that are missing.
+/// Why a model has no facets, by its first face that has none.
+fn nothing_drawn(shape: &Trimmed, made: &Tessellation) -> String {
+    let of = shape.brep.faces.len();
+    let untrimmed = shape.trims.iter().zip(&shape.brep.faces).find_map(|(trim, face)| {
+        let error = trim.as_ref().err()?;
+        Some(format!("face #{}: {error}", face.entity))
+    });
+    let failed = || {
+        let (face, why) = made.failed.first()?;
+        Some(format!("face #{}: {why}", shape.brep.faces.get(*face as usize)?.entity))
+    };
+    let why = untrimmed.or_else(failed).map_or(String::new(), |why| format!(": {why}"));
+    format!("none of its {of} faces can be divided into facets{why}; export the part again, or as STL")
+}
+
+/// A model where its parts stand as its file has it, and its facets and lines along edges. The document is told of faces that are missing.
 pub fn drawn(
     path: &Path,
     file: &CadFile,
@@ -61,9 +82,31 @@ pub fn drawn(
     progress: &dyn Progress,
 ) -> Result<(Trimmed, Tessellation), TaskError> {
     let shape = Trimmed::of(&file.model, progress)?;
+    let made = divided(path, file, &shape, chord, record, progress)?;
+    Ok((shape, made))
+}
+
+/// The facets of a model; the document is told of faces that are missing.
+fn divided(
+    path: &Path,
+    file: &CadFile,
+    shape: &Trimmed,
+    chord: Chord,
+    record: &mut InputRecord,
+    progress: &dyn Progress,
+) -> Result<Tessellation, TaskError> {
+    let size = shape.bounds().diagonal();
+    // Most files of meshes hold single precision.
+    let finest = f64::from(f32::EPSILON) * size;
     let distance = match chord {
+        Chord::Within(distance) if distance < finest => {
+            let least = 1.01 * finest;
+            return Err(TaskError::usage(format!(
+                "--chord {distance:e}: facets of a part of {size:.3} mm cannot lie so near to its faces in the numbers of a mesh; give {least:.2e} mm or more"
+            )));
+        }
         Chord::Within(distance) => distance,
-        Chord::Share(share) => share * shape.bounds().diagonal(),
+        Chord::Share(share) => share * size,
     };
     let fineness = Fineness { distance, angle: FACET_ANGLE };
     let made = shape.tessellate(fineness, MAX_FACETS, progress).map_err(|e| match e {
@@ -75,16 +118,30 @@ pub fn drawn(
     }
     let farthest = made.bounds.iter().flatten().map(|b| b.distance).fold(0.0, f64::max);
     let read = made.bounds.iter().flatten().count() as u64;
-    let of =
-        shape.brep.faces.len() as u64 + file.model.unread.iter().filter(|u| u.holds_faces).count() as u64;
     record.cad = Some(CadInputRecord { faces: read, facets_within: farthest });
     record.facets = Some(made.mesh.faces.len() as u64);
-    record.incomplete = incomplete(record.role, read, of);
+    tell_missing(file, shape, read, record);
+    describe(record, &made.mesh.positions);
+    Ok(made)
+}
+
+/// Tells the document of faces that could not be read, and of those whose border could not be followed; `read` have neither.
+pub fn tell_missing(file: &CadFile, shape: &Trimmed, read: u64, record: &mut InputRecord) {
+    let unread = file.model.unread.iter().filter(|u| u.holds_faces).count();
+    record.incomplete = incomplete(record.role, read, (shape.brep.faces.len() + unread) as u64);
     if let Some(missing) = &record.incomplete {
         record.warnings.push(format!("{}; `trueness info` names the others", missing.text));
     }
-    describe(record, &made.mesh.positions);
-    Ok((shape, made))
+}
+
+/// Tells the document of faces that were turned.
+pub fn tell_turned(record: &mut InputRecord, faces: &[u32]) {
+    if !faces.is_empty() {
+        let count = faces.len();
+        record.warnings.push(format!(
+            "{count} face(s) look the other way than their neighbors and were turned, so that closed shells look outward; `trueness check` names them"
+        ));
+    }
 }
 
 /// A model where its parts stand as faces to measure against, and the mesh that draws them.

@@ -19,7 +19,7 @@ use trueness_files::cad::{CadFile, SplineModel};
 use trueness_files::drawing::Drawing;
 use trueness_files::{
     ColumnTaken, Columns, Holds, Input, PointSource, ReadError, ReadOptions, SourceMesh, Sources,
-    TableReading, Warning, open_from, open_normals_from,
+    TableReading, Warning, Weld, open_from, open_normals_from,
 };
 use trueness_geom::closest::{MAX_COORDINATE, MAX_VERTEX};
 use trueness_geom::mesh::Mesh;
@@ -123,7 +123,12 @@ pub fn any(sources: &dyn Sources, path: &Path, role: Role, options: &ReadOptions
     let mut record = record(role, &provenance, &warnings);
     let body = match body {
         trueness_files::Body::Cad(file) => {
-            let record = cad::record(role, path, &file);
+            let mut record = cad::record(role, path, &file);
+            if let Weld::Within(_) = options.weld {
+                record
+                    .warnings
+                    .push("--weld joins vertices of meshes: it was not used on a CAD model".into());
+            }
             return Ok(Any::Cad(file, record));
         }
         trueness_files::Body::Splines(model) => return Ok(Any::Splines(model, record)),

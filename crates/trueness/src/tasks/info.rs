@@ -5,10 +5,10 @@ use crate::task::{Done, PointReading, Request, RunFiles, TaskError, Watch};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
-use trueness_cad::model::Model;
 use trueness_cad::trimmed::Trimmed;
 use trueness_document::info::{Content, InfoDocument};
 use trueness_document::{InputRecord, Role};
+use trueness_files::cad::CadFile;
 use trueness_files::{PointSource, Sources};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::num::sum::Sum;
@@ -52,7 +52,7 @@ impl Request for InfoRequest {
                     points(source, document, watch)?
                 }
             },
-            Any::Cad(file, record) => cad(&file.model, record, watch)?,
+            Any::Cad(file, record) => cad(&file, record, watch)?,
             Any::Splines(_, record) => InfoDocument::new(record, Content::Splines),
             Any::Drawing(_, record) => InfoDocument::new(record, Content::Drawing),
         };
@@ -102,15 +102,18 @@ fn points(
 }
 
 /// Areas and volumes are exact integrals over the faces.
-fn cad(model: &Model, record: InputRecord, watch: &dyn Watch) -> Result<InfoDocument, TaskError> {
+fn cad(file: &CadFile, mut record: InputRecord, watch: &dyn Watch) -> Result<InfoDocument, TaskError> {
+    let model = &file.model;
     let faces = model.instances.iter().filter_map(|i| model.parts.get(i.part as usize));
     let faces = faces.map(|part| part.brep.faces.len() as u64).sum();
     let stage = watch.stage("following borders", "faces", Some(faces));
-    let shape = Trimmed::of(model, &*stage)?;
+    let (shape, turned) = Trimmed::of(model, &*stage)?.agreed();
     stage.finish();
     let stage = watch.stage("integrating", "faces", Some(faces));
     let integrals = shape.integrals(&*stage)?;
     stage.finish();
+    read::cad::tell_turned(&mut record, &turned);
+    read::cad::tell_missing(file, &shape, integrals.iter().flatten().count() as u64, &mut record);
     Ok(InfoDocument {
         bounds: sides(shape.bounds()),
         area: Some(trueness_measure::cad::area(&integrals)),

@@ -3,6 +3,7 @@
 use crate::console::columns;
 use crate::number::{FACETS, SHELLS, VERTICES, counted, extent, fixed, grouped, scientific, signed};
 use std::collections::BTreeMap;
+use trueness_document::InputRecord;
 use trueness_document::repair::{RepairDocument, State};
 use trueness_measure::words::ToGeometry;
 use trueness_solid::repair::Removes;
@@ -187,6 +188,11 @@ fn verdict(d: &RepairDocument) -> String {
             };
             format!(
                 "\nCLOSED, BUT CHANGED: {written}. It is not the same part: volume or surface went beyond --max-change.{sheets}{inwards}{again}\n"
+            )
+        }
+        (true, _) if d.inputs.iter().any(InputRecord::lacks_faces) => {
+            format!(
+                "\nOF AN INCOMPLETE MODEL: {written}. Faces that could not be read are missing in it.{again}\n"
             )
         }
         (true, None) => format!("\nsound; {written}, not read again\n"),

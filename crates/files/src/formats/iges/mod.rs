@@ -66,7 +66,7 @@ fn parsed(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
         return Ok(Parsed::cad("iges", content));
     }
     let splines = content.splines.unwrap_or_default();
-    if !content.model.is_complete() || splines.curves.is_empty() && !content.model.unread.is_empty() {
+    if !content.model.is_complete() || splines.curves.is_empty() {
         holds_anything(&content.model)?;
     }
     let said = (content.unit.from == UnitFrom::Header).then(|| content.unit.nearest());

@@ -171,14 +171,20 @@ impl Header {
         }
     }
 
-    /// The units of the coordinates, `None` where the file does not say them. `is_said` tells that the user did.
-    pub fn lengths(&self, is_said: bool) -> Result<Option<Lengths>> {
+    /// The units of the coordinates, `None` where the file does not say them. `is_said` tells that the user did; then why those of the file
+    /// are of no use is the second value.
+    pub fn lengths(&self, is_said: bool) -> Result<(Option<Lengths>, Option<String>)> {
         let System { keys, numbers, texts, text } = &self.system;
         let found = match text {
             Some(text) => well_known_text(&String::from_utf8_lossy(text)),
             None => geo_keys(keys, numbers, texts),
         };
-        if is_said { Ok(found.unwrap_or_default()) } else { found.map_err(Into::into) }
+        match found {
+            Ok(lengths) => Ok((lengths, None)),
+            Err(Fault::Unsupported { what, .. }) if is_said => Ok((None, Some(what))),
+            Err(_) if is_said => Ok((None, None)),
+            Err(fault) => Err(fault.into()),
+        }
     }
 }
 

@@ -45,8 +45,8 @@ pub(crate) const LAS: Format = Format {
 fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     let header = Header::read(&mut source.feed)?;
     let layout = Layout::of(&header)?;
-    let lengths = header.lengths(options.units.is_some())?;
-    let (unit, warnings) = told(&header, &layout, lengths);
+    let (lengths, unusable) = header.lengths(options.units.is_some())?;
+    let (unit, warnings) = told(&header, &layout, lengths, unusable);
     let parsed = match header.zip.clone() {
         None => Parsed::points("las", PlainPoints::new(source.feed, layout, header.points, options.block)?),
         Some(zip) => {
@@ -58,10 +58,17 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
 }
 
 /// The unit, and what there is to tell before the points.
-fn told(header: &Header, layout: &Layout, lengths: Option<Lengths>) -> (Option<Unit>, Vec<Warning>) {
+fn told(
+    header: &Header,
+    layout: &Layout,
+    lengths: Option<Lengths>,
+    unusable: Option<String>,
+) -> (Option<Unit>, Vec<Warning>) {
     let mut told = vec![];
     match lengths {
-        None => told.push(ScanWarning::UnitUnstated),
+        None => {
+            told.push(unusable.map_or(ScanWarning::UnitUnstated, |why| ScanWarning::UnitUnusable { why }))
+        }
         Some(Lengths { unit, height }) => {
             if matches!(unit, Unit::Foot | Unit::SurveyFoot) {
                 told.push(ScanWarning::Feet { unit });

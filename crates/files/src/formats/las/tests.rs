@@ -273,5 +273,6 @@ fn the_unit_is_that_of_the_coordinate_system() {
     let degrees = file(keys(&[[1024, 0, 1, 2]]));
     assert!(said(&degrees).contains("degrees"));
     let asked = ReadOptions { units: Some(Unit::Meter), ..ReadOptions::default() };
-    assert_eq!(points(&degrees, &asked).unwrap().1.len(), 2);
+    let (parsed, read, _) = points(&degrees, &asked).unwrap();
+    assert!(read.len() == 2 && parsed.warnings[0].to_string().contains("degrees"), "{:?}", parsed.warnings);
 }

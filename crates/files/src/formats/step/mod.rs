@@ -22,7 +22,7 @@ pub use surface::write as surface;
 use crate::content::cad_file::CadContent;
 use crate::content::spline_model::SplineModel;
 use crate::error::Result;
-use crate::format::{Format, Head, Holds, Parsed, ReadOptions};
+use crate::format::{Content, Format, Head, Holds, Parsed, ReadOptions};
 use crate::formats::brep::holds_anything;
 use crate::source::Source;
 use trueness_geom::progress::{Progress, Silent};
@@ -65,5 +65,10 @@ fn parsed(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     if !content.model.is_complete() {
         holds_anything(&content.model)?;
     }
-    read::read(&mut source, options)
+    let splines = read::read(&mut source, options)?;
+    if matches!(&splines.content, Content::Splines(found) if found.surfaces.is_empty() && found.curves.is_empty())
+    {
+        holds_anything(&content.model)?;
+    }
+    Ok(splines)
 }

@@ -23,6 +23,8 @@ pub(super) const CURVES: [&str; 6] = [
     "B_SPLINE_CURVE",
     "RATIONAL_B_SPLINE_CURVE",
 ];
+/// The record that has the name of a complex instance.
+const NAME_RECORD: &str = "REPRESENTATION_ITEM";
 /// Parameters of a B-spline before its knots, without its name: of a curve, of a surface.
 const BASE: [usize; 2] = [5, 7];
 
@@ -49,6 +51,10 @@ pub(super) fn spline<'f>(entity: &Entity<'f>, dimensions: usize) -> Result<Optio
     };
     // A simple instance has its name first, then all parameters; of a complex one each record has its own.
     let simple = entity.is_simple();
+    let is_known = |r: &Record| names.contains(&r.keyword) || r.values.is_empty() || NAME_RECORD == r.keyword;
+    if let Some(strange) = entity.records().find(|r| !simple && !is_known(r)) {
+        return Err(strange.wrong(format!("has a record that is not known, {}", strange.keyword)));
+    }
     let (base, first, rest) = match entity.record(names[4]) {
         Some(base) if !simple => (base, 0, own.values),
         None if !simple => return Ok(None),

@@ -3,10 +3,12 @@
 //! A node stands for a product and all representations that share its coordinates. A node is placed in another one by an occurrence
 //! of its product, by a relationship of representations with a transformation, or as a mapped item.
 
-use super::super::context::{Context, context};
-use super::super::part21::{Entity, File, Record, Value, Wrong};
+use super::super::part21::{Entity, File, Record, Wrong};
+use super::groups::{Groups, TRANSFORMED, is_plain};
+use super::item::{Item, item};
+use super::links::leads_on;
 use super::placement::{Units, frame, operator, target};
-use super::shape::{Item, item};
+use super::representation::Representation;
 use crate::formats::brep::tree::{self, Child};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use trueness_cad::frame::Placement;
@@ -25,13 +27,6 @@ pub(super) struct Node {
     maps: bool,
 }
 
-/// A representation: items in a context.
-pub(super) struct Representation {
-    pub name: String,
-    pub items: Vec<u64>,
-    pub context: Result<Context, Wrong>,
-}
-
 /// All nodes of a file.
 pub(super) struct Assembly<'f> {
     file: &'f File<'f>,
@@ -43,57 +38,6 @@ pub(super) struct Assembly<'f> {
     pub unread: Vec<Unread>,
 }
 
-/// The representations of a file's shapes. Those of aspects of shapes, such as targets of datums, are none.
-pub(super) fn representations(file: &File) -> BTreeMap<u64, Representation> {
-    let mut contexts: HashMap<u64, Result<Context, Wrong>> = HashMap::new();
-    let aspects = aspects(file);
-    let mut all = BTreeMap::new();
-    for entity in file.entities().filter(|e| !aspects.contains(&e.number())) {
-        let is_shape =
-            |r: &Record| r.keyword.ends_with("SHAPE_REPRESENTATION") && !r.keyword.contains("HISTORY");
-        // Drawings have items of parts, mapped for a view of them.
-        if !entity.records().any(|r| is_shape(&r)) || entity.record("DRAUGHTING_MODEL").is_some() {
-            continue;
-        }
-        let record = entity.main(&["REPRESENTATION"]);
-        let (Ok(items), Ok(number)) = (record.list(1), record.entity(2)) else { continue };
-        let items = items.iter().filter_map(|v| match v {
-            Value::Reference(n) => Some(*n),
-            _ => None,
-        });
-        let items: Vec<u64> = items.collect();
-        let context = contexts.entry(number).or_insert_with(|| context(file, number)).clone();
-        all.insert(entity.number(), Representation { name: record.text(0), items, context });
-    }
-    all
-}
-
-/// The representations that define something other than a product.
-fn aspects(file: &File) -> BTreeSet<u64> {
-    let mut all = BTreeSet::new();
-    for entity in file.entities() {
-        for record in entity.records().filter(|r| r.keyword.ends_with("DEFINITION_REPRESENTATION")) {
-            if let (Some(definition), Some(used)) = (record.reference(0), record.reference(1))
-                && product_of(file, definition).is_none()
-            {
-                all.insert(used);
-            }
-        }
-    }
-    all
-}
-
-/// The definition of the product that a shape or a property is of.
-fn product_of(file: &File, number: u64) -> Option<u64> {
-    let definition = file.entity(number).ok()?;
-    let property = definition.main(&["PRODUCT_DEFINITION_SHAPE", "PROPERTY_DEFINITION"]);
-    let index =
-        if definition.is_simple() || property.keyword == "PROPERTY_DEFINITION" { 2 } else { return None };
-    let product = property.reference(index)?;
-    let keyword = file.entity(product).ok()?.main(&[]).keyword;
-    keyword.starts_with("PRODUCT_DEFINITION").then_some(product)
-}
-
 impl<'f> Assembly<'f> {
     /// The nodes of a file and how they stand in one another.
     pub fn of(
@@ -101,13 +45,7 @@ impl<'f> Assembly<'f> {
         representations: BTreeMap<u64, Representation>,
         fallback: Units,
     ) -> Assembly<'f> {
-        let mut groups = Groups::default();
-        for number in representations.keys() {
-            groups.index(*number);
-        }
-        for entity in file.entities() {
-            join(file, &entity, &representations, &mut groups);
-        }
+        let groups = Groups::of(file, &representations);
         let mut assembly = Assembly {
             file,
             fallback,
@@ -172,21 +110,23 @@ impl<'f> Assembly<'f> {
     fn place_occurrences(&mut self) {
         let file = self.file;
         let (mut relation_of, mut used) = (HashMap::new(), BTreeSet::new());
-        for record in file.entities().filter_map(|e| e.record("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION")) {
-            let (Some(relation), Some(shape)) = (record.reference(0), record.reference(1)) else { continue };
-            let occurrence = file.entity(shape).ok().and_then(|s| s.main(&[]).reference(2));
-            if let Some(occurrence) = occurrence {
-                relation_of.insert(occurrence, relation);
-                used.insert(relation);
+        for entity in file.entities() {
+            match occurrence_with_place(file, &entity) {
+                Ok(None) => {}
+                Ok(Some((occurrence, relation))) => {
+                    relation_of.insert(occurrence, relation);
+                    used.insert(relation);
+                }
+                Err(wrong) => self.tell(&entity, &wrong),
             }
         }
         for entity in file.entities() {
-            let placed = if let Err(wrong) = self.leads_on(&entity) {
+            let placed = if let Err(wrong) = leads_on(file, &entity) {
                 Err(wrong)
             } else if let Some(record) = entity.record("NEXT_ASSEMBLY_USAGE_OCCURRENCE") {
                 let relation = relation_of.get(&entity.number()).copied();
                 self.occurrence(&entity, &record, relation)
-            } else if entity.record(TRANSFORMED).is_some() && !used.contains(&entity.number()) {
+            } else if self.moves(&entity) && !used.contains(&entity.number()) {
                 self.related(&entity, None)
             } else {
                 Ok(())
@@ -197,14 +137,12 @@ impl<'f> Assembly<'f> {
         }
     }
 
-    /// Whether all that a link between products and their shapes names is there: without one, parts are lost.
-    fn leads_on(&self, entity: &Entity) -> Result<(), Wrong> {
-        for record in entity.records().filter(|r| LINKS.contains(&r.keyword)) {
-            (0..MAX_LINKED)
-                .filter_map(|k| record.reference(k))
-                .try_for_each(|n| self.file.entity(n).map(drop))?;
-        }
-        Ok(())
+    /// Whether an entity relates two shapes and may move one of them.
+    fn moves(&self, entity: &Entity) -> bool {
+        let main = entity.main(&["REPRESENTATION_RELATIONSHIP"]);
+        let is_node = |k: usize| main.reference(k).is_some_and(|n| self.representations.contains_key(&n));
+        entity.record(TRANSFORMED).is_some()
+            || main.keyword == "REPRESENTATION_RELATIONSHIP" && !is_plain(entity) && is_node(2) && is_node(3)
     }
 
     fn occurrence(&mut self, entity: &Entity, record: &Record, relation: Option<u64>) -> Result<(), Wrong> {
@@ -246,7 +184,11 @@ impl<'f> Assembly<'f> {
         let (Some(first), Some(second)) = (first, second) else {
             return Err(main.wrong("relates representations that are not there"));
         };
-        let Some(transformed) = entity.record(TRANSFORMED) else { return Ok(()) };
+        let Some(transformed) = entity.record(TRANSFORMED) else {
+            // Shapes that share their coordinates are one node.
+            let wrong = || main.wrong("does not say in a way that is known where its part stands");
+            return if first == second { Ok(()) } else { Err(wrong()) };
+        };
         let (nodes, name, by) = occurrence.unwrap_or(([None; 2], main.text(0), entity.number()));
         let turned = nodes[1] == Some(second) && nodes[1] != Some(first);
         let child = if turned { second } else { first };
@@ -321,46 +263,20 @@ impl<'f> Assembly<'f> {
     }
 }
 
-/// What links products, their shapes and their occurrences.
-const LINKS: [&str; 4] = [
-    "SHAPE_DEFINITION_REPRESENTATION",
-    "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION",
-    "PRODUCT_DEFINITION_SHAPE",
-    "NEXT_ASSEMBLY_USAGE_OCCURRENCE",
-];
-/// Parameters of a link at most.
-const MAX_LINKED: usize = 6;
-/// The record of a relationship that has a transformation.
-const TRANSFORMED: &str = "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION";
-
-/// Joins what an entity says to share its coordinates: a product and its representation, two representations.
-fn join(file: &File, entity: &Entity, representations: &BTreeMap<u64, Representation>, groups: &mut Groups) {
-    for record in entity.records() {
-        match record.keyword {
-            "SHAPE_DEFINITION_REPRESENTATION" => {
-                let product = record.reference(0).and_then(|d| product_of(file, d));
-                if let (Some(product), Some(used)) = (product, record.reference(1))
-                    && representations.contains_key(&used)
-                {
-                    groups.join(product, used);
-                }
-            }
-            "NEXT_ASSEMBLY_USAGE_OCCURRENCE" => {
-                for product in [3, 4].into_iter().filter_map(|k| record.reference(k)) {
-                    groups.index(product);
-                }
-            }
-            "SHAPE_REPRESENTATION_RELATIONSHIP" | "REPRESENTATION_RELATIONSHIP"
-                if entity.record(TRANSFORMED).is_none() =>
-            {
-                if let (Some(a), Some(b)) = (record.reference(2), record.reference(3))
-                    && [a, b].iter().all(|r| representations.contains_key(r))
-                {
-                    groups.join(a, b);
-                }
-            }
-            _ => {}
-        }
+/// The occurrence that an entity gives a place, and the relationship that says which.
+fn occurrence_with_place(file: &File, entity: &Entity) -> Result<Option<(u64, u64)>, Wrong> {
+    let Some(record) = entity.record("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION") else { return Ok(None) };
+    let (relation, shape) = (record.entity(0)?, record.entity(1)?);
+    // What is missing is told where links are followed.
+    let Ok(shape) = file.entity(shape) else { return Ok(None) };
+    let occurrence = shape.main(&[]).entity(2)?;
+    let Ok(target) = file.entity(occurrence) else { return Ok(None) };
+    match target.record("NEXT_ASSEMBLY_USAGE_OCCURRENCE") {
+        Some(_) => Ok(Some((occurrence, relation))),
+        None => Err(record.wrong(format!(
+            "gives a place to what is no NEXT_ASSEMBLY_USAGE_OCCURRENCE but {}",
+            target.main(&[]).keyword
+        ))),
     }
 }
 
@@ -370,42 +286,4 @@ fn product_name(file: &File, definition: u64) -> Option<String> {
     let product = file.entity(formation).ok()?.main(&["PRODUCT_DEFINITION_FORMATION"]).reference(2)?;
     let product = file.entity(product).ok()?.main(&["PRODUCT"]);
     [1, 0].map(|k| product.text(k)).into_iter().find(|n| !n.is_empty())
-}
-
-/// Numbers that belong together.
-#[derive(Default)]
-struct Groups {
-    index_of: BTreeMap<u64, usize>,
-    parents: Vec<usize>,
-}
-
-impl Groups {
-    fn index(&mut self, number: u64) -> usize {
-        let next = self.parents.len();
-        let index = *self.index_of.entry(number).or_insert(next);
-        if index == next {
-            self.parents.push(next);
-        }
-        index
-    }
-
-    fn root(&mut self, mut index: usize) -> usize {
-        while self.parents[index] != index {
-            self.parents[index] = self.parents[self.parents[index]];
-            index = self.parents[index];
-        }
-        index
-    }
-
-    fn join(&mut self, a: u64, b: u64) {
-        let [a, b] = [a, b].map(|n| self.index(n));
-        let [a, b] = [self.root(a), self.root(b)];
-        self.parents[a.max(b)] = a.min(b);
-    }
-
-    /// All numbers in their order, each with the root of its group.
-    fn members(mut self) -> Vec<(u64, usize)> {
-        let all: Vec<(u64, usize)> = self.index_of.iter().map(|(number, index)| (*number, *index)).collect();
-        all.into_iter().map(|(number, index)| (number, self.root(index))).collect()
-    }
 }

@@ -7,7 +7,8 @@ use super::surface::Oriented;
 use super::topology::{MAX_ORIENTED, Topology};
 use crate::formats::brep::reversed;
 use crate::formats::brep::span::MAX_GAP;
-use std::collections::HashMap;
+use std::cell::RefCell;
+use std::collections::{BTreeSet, HashMap};
 use trueness_cad::brep::{Bounds, Color, Face, Loop, Shell};
 use trueness_cad::model::Unread;
 use trueness_cad::surface::Surface;
@@ -23,14 +24,22 @@ pub(super) struct Faces<'f> {
     pub looks: &'f Looks,
     pub progress: &'f dyn Progress,
     pub unread: Vec<Unread>,
+    /// The entities of all faces that were come to, whether they could be read or not.
+    pub reached: &'f RefCell<BTreeSet<u64>>,
     /// By the number of the entity and whether it is turned.
     faces: HashMap<(u64, bool), Option<u32>>,
     shells: HashMap<(u64, bool), Option<u32>>,
 }
 
 impl<'f> Faces<'f> {
-    pub fn new(topology: Topology<'f>, looks: &'f Looks, progress: &'f dyn Progress) -> Faces<'f> {
-        Faces { topology, looks, progress, unread: vec![], faces: HashMap::new(), shells: HashMap::new() }
+    pub fn new(
+        topology: Topology<'f>,
+        looks: &'f Looks,
+        progress: &'f dyn Progress,
+        reached: &'f RefCell<BTreeSet<u64>>,
+    ) -> Faces<'f> {
+        let (faces, shells) = (HashMap::new(), HashMap::new());
+        Faces { topology, looks, progress, unread: vec![], reached, faces, shells }
     }
 
     /// Forgets which entity became what: another representation has other units.
@@ -123,6 +132,7 @@ impl<'f> Faces<'f> {
         let (own, mut number, mut turned) = (number, number, turned);
         let file = self.topology.geometry.file;
         for _ in 0..MAX_ORIENTED {
+            self.reached.borrow_mut().insert(number);
             let entity = file.entity(number)?;
             let record = entity.main(&["ADVANCED_FACE", "FACE_SURFACE", "FACE"]);
             match record.keyword {

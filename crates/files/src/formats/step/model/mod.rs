@@ -7,10 +7,14 @@
 mod assembly;
 mod curve;
 mod face;
+mod groups;
+mod item;
+mod links;
 mod looks;
 mod part;
 mod placement;
 mod read;
+mod representation;
 mod shape;
 mod surface;
 #[cfg(test)]

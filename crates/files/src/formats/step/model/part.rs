@@ -4,9 +4,10 @@ use super::super::part21::File;
 use super::assembly::Assembly;
 use super::curve::Geometry;
 use super::face::Faces;
+use super::item::{Item, item};
 use super::looks::Looks;
 use super::placement::Units;
-use super::shape::{Item, Shapes, item};
+use super::shape::Shapes;
 use super::topology::Topology;
 use crate::formats::brep::Budget;
 use std::cell::RefCell;
@@ -24,12 +25,14 @@ pub(super) struct Reading<'f> {
     pub tolerance: f64,
     /// Items of the shapes of products: a representation of no product may show them again.
     pub shown: RefCell<BTreeSet<u64>>,
+    /// The entities of all faces that were come to.
+    pub reached: &'f RefCell<BTreeSet<u64>>,
 }
 
 impl<'f> Reading<'f> {
     fn shapes(&self, units: Units) -> Shapes<'f> {
         let geometry = Geometry { file: self.file, units, tolerance: self.tolerance, budget: self.budget };
-        Shapes::new(Faces::new(Topology::new(geometry), self.looks, self.progress))
+        Shapes::new(Faces::new(Topology::new(geometry), self.looks, self.progress, self.reached))
     }
 
     /// The part of a node, and what of it could not be read; `None` where its representations have no shape.

@@ -1,10 +1,12 @@
 //! The whole of a file.
 
 use super::super::part21::{File, parse};
-use super::assembly::{Assembly, Representation, representations};
+use super::assembly::Assembly;
+use super::links::{places_shapes, unreached};
 use super::looks::Looks;
 use super::part::Reading;
 use super::placement::Units;
+use super::representation::{Representation, aspects, representations};
 use crate::content::cad_file::{CadContent, LengthUnit};
 use crate::error::{Fault, Located, Result};
 use crate::format::ReadOptions;
@@ -12,7 +14,8 @@ use crate::formats::brep::tree::{Node, instances};
 use crate::formats::brep::{Budget, MAX_TOLD};
 use crate::source::Source;
 use crate::{UnitFrom, Warning};
-use std::collections::BTreeMap;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
 use trueness_cad::frame::Placement;
 use trueness_cad::model::{Instance, Model, Unread};
 use trueness_geom::progress::Progress;
@@ -31,7 +34,8 @@ pub(crate) fn read(
     let stopped = |_| Located::from(Fault::Cancelled);
     let file = parse(source.feed.all()?, progress).map_err(stopped)?;
     let looks = Looks::of(&file);
-    let shapes = representations(&file);
+    let aspects = aspects(&file);
+    let shapes = representations(&file, &aspects);
     let unit = unit(&shapes, options);
     let angle = shapes.values().find_map(|r| r.context.as_ref().ok()?.angle).unwrap_or(1.0);
     let uncertainty = shapes.values().filter_map(|r| r.context.as_ref().ok()?.uncertainty).reduce(f64::max);
@@ -39,8 +43,16 @@ pub(crate) fn read(
     let warnings = warnings(&shapes, &unit, options);
     let budget = Budget::of(file.count());
     let tolerance = uncertainty.unwrap_or(USUAL_UNCERTAINTY).clamp(UNCERTAINTIES[0], UNCERTAINTIES[1]);
-    let shown = Default::default();
-    let reading = Reading { file: &file, budget: &budget, looks: &looks, progress, tolerance, shown };
+    let (shown, reached) = (Default::default(), RefCell::default());
+    let reading = Reading {
+        file: &file,
+        budget: &budget,
+        looks: &looks,
+        progress,
+        tolerance,
+        shown,
+        reached: &reached,
+    };
     let mut model = Model { uncertainty, ..Model::default() };
     let mut assembly = Assembly::of(&file, shapes, fallback);
     let mut parts = vec![None; assembly.nodes.len()];
@@ -60,29 +72,80 @@ pub(crate) fn read(
         }
     }
     let mut tree: Vec<Node> = assembly.nodes.iter_mut().map(|node| std::mem::take(&mut node.tree)).collect();
+    assembly.unread.extend(homeless(&assembly, &tree, &file, |node| {
+        let part = parts[node].and_then(|(part, _)| model.parts.get(part as usize));
+        part.is_some_and(|part| !part.brep.faces.is_empty())
+    }));
     let made = instances(&mut tree, &parts, |entity| looks.color(entity))?;
     (model.instances, model.depth) = (made.instances, made.levels);
-    assembly.unread.extend(made.cut.into_iter().map(|(entity, name)| Unread {
-        entity,
-        keyword: "NEXT_ASSEMBLY_USAGE_OCCURRENCE".into(),
-        reason: format!(
-            "places {} in itself",
-            if name.is_empty() { "an assembly".into() } else { format!("\"{name}\"") }
-        ),
-        holds_faces: true,
-    }));
+    assembly.unread.extend(made.cut.into_iter().map(cut));
     if model.parts.is_empty() && model.unread.is_empty() {
         let (part, mut unread) = reading.loose(fallback);
         model.unread.append(&mut unread);
         model.instances.extend(part.as_ref().map(|_| Instance::of(0, Placement::IDENTITY)));
+        if part.is_some() && places_shapes(&file) {
+            model.unread.push(unplaced());
+        }
         model.parts.extend(part);
     }
     model.unread.append(&mut assembly.unread);
     model.unread.extend(damaged(&file));
+    model.unread.extend(unreached(&file, &reached.take(), &aspects));
     model.tolerances = super::super::tolerances::read(&file, &budget);
     model.hidden = looks.hidden.iter().copied().collect();
     model.layers = looks.layers.iter().cloned().collect();
     Ok(CadContent { model, unit, warnings, splines: None })
+}
+
+/// What places a part in itself.
+fn cut((entity, name): (u64, String)) -> Unread {
+    let what = if name.is_empty() { "an assembly".into() } else { format!("\"{name}\"") };
+    Unread {
+        entity,
+        keyword: "NEXT_ASSEMBLY_USAGE_OCCURRENCE".into(),
+        reason: format!("places {what} in itself"),
+        holds_faces: true,
+    }
+}
+
+/// Shapes that are read without the representations that would say where they stand.
+fn unplaced() -> Unread {
+    Unread {
+        entity: 0,
+        keyword: "SHAPE_REPRESENTATION".into(),
+        reason: "the shapes belong to no representation that can be read: which are of the model, and where they stand, is not known"
+            .into(),
+        holds_faces: true,
+    }
+}
+
+/// Representations with faces that belong to no product and stand in none, beside products: where they stand is not known. A file
+/// without products is a part as it stands.
+fn homeless(
+    assembly: &Assembly,
+    tree: &[Node],
+    file: &File,
+    has_faces: impl Fn(usize) -> bool,
+) -> Vec<Unread> {
+    let placed: BTreeSet<usize> = tree.iter().flat_map(|n| &n.children).map(|c| c.node).collect();
+    if !file.entities().any(|e| e.record("SHAPE_DEFINITION_REPRESENTATION").is_some()) {
+        return vec![];
+    }
+    let is_lost = |n: &usize| !assembly.nodes[*n].is_product && !placed.contains(n) && has_faces(*n);
+    let lost = (0..assembly.nodes.len()).filter(is_lost);
+    let told = |n: usize| {
+        let entity = file.entity(*assembly.nodes[n].representations.first()?).ok()?;
+        let line = entity.wrong("").line;
+        Some(Unread {
+            entity: entity.number(),
+            keyword: entity.main(&["REPRESENTATION"]).keyword.into(),
+            reason: format!(
+                "line {line}: has faces, but belongs to no product: where they stand is not known"
+            ),
+            holds_faces: true,
+        })
+    };
+    lost.filter_map(told).collect()
 }
 
 /// The unit of the first representation that says one.

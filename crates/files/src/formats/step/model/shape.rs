@@ -1,94 +1,15 @@
 //! The items of a representation: solids, shells, surfaces without topology, wires.
 
 use super::super::part21::{Entity, Record, Wrong};
-use super::curve::is_curve;
 use super::face::Faces;
+use super::item::{Item, item};
+use super::links::names_shapes;
 use super::placement::operator;
-use super::surface::{Oriented, is_surface};
+use super::surface::Oriented;
 use super::topology::Topology;
 use crate::formats::brep::{MAX_BASES, WITHOUT_ENDS, look_inward};
 use trueness_cad::brep::{Bounds, Brep, Color, Face, Solid};
 use trueness_cad::model::Part;
-
-/// What an item of a representation is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Item {
-    Solid,
-    Replica,
-    /// Shells or sets of faces in a list.
-    Model,
-    Shell,
-    Face,
-    Set,
-    Surface,
-    /// A curve or a point, or several of these.
-    Wire,
-    /// A part that stands elsewhere.
-    Mapped,
-    Placement,
-    /// Shapes that are not read and may have faces.
-    Unknown,
-    /// What has no shape.
-    Other,
-}
-
-/// What an entity is as an item.
-pub(super) fn item(entity: &Entity) -> Item {
-    let of = |keyword: &str| match keyword {
-        "MANIFOLD_SOLID_BREP" | "BREP_WITH_VOIDS" | "FACETED_BREP" => Item::Solid,
-        "SOLID_REPLICA" => Item::Replica,
-        "SHELL_BASED_SURFACE_MODEL" | "FACE_BASED_SURFACE_MODEL" => Item::Model,
-        "OPEN_SHELL"
-        | "CLOSED_SHELL"
-        | "ORIENTED_CLOSED_SHELL"
-        | "ORIENTED_OPEN_SHELL"
-        | "CONNECTED_FACE_SET" => Item::Shell,
-        "ADVANCED_FACE" | "FACE_SURFACE" | "ORIENTED_FACE" => Item::Face,
-        "GEOMETRIC_SET" | "GEOMETRIC_CURVE_SET" => Item::Set,
-        "MAPPED_ITEM" => Item::Mapped,
-        "EDGE_BASED_WIREFRAME_MODEL"
-        | "SHELL_BASED_WIREFRAME_MODEL"
-        | "CARTESIAN_POINT"
-        | "VERTEX_POINT"
-        | "VERTEX_SHELL"
-        | "WIRE_SHELL"
-        | "CONNECTED_EDGE_SET"
-        | "EDGE_CURVE" => Item::Wire,
-        "AXIS2_PLACEMENT_3D" | "AXIS2_PLACEMENT_2D" | "AXIS1_PLACEMENT" => Item::Placement,
-        keyword if is_surface(keyword) => Item::Surface,
-        keyword if is_curve(keyword) => Item::Wire,
-        keyword if HOLDERS.iter().any(|h| keyword.contains(h)) => Item::Unknown,
-        _ => Item::Other,
-    };
-    // Of a complex instance the record that says most.
-    let mut found = Item::Other;
-    for record in entity.records() {
-        let item = of(record.keyword);
-        if found == Item::Other || found == Item::Unknown && item != Item::Other {
-            found = item;
-        }
-    }
-    found
-}
-
-/// Parts of keywords of shapes that may have faces.
-const HOLDERS: [&str; 15] = [
-    "SOLID",
-    "BREP",
-    "SHELL",
-    "FACE",
-    "SURFACE",
-    "TESSELLATED",
-    "TRIANGULATED",
-    "BOOLEAN",
-    "BLOCK",
-    "CYLINDER",
-    "CONE",
-    "SPHERE",
-    "TORUS",
-    "WEDGE",
-    "ELLIPSOID",
-];
 
 /// The boundary of a part, item by item.
 pub(super) struct Shapes<'f> {
@@ -152,7 +73,9 @@ impl<'f> Shapes<'f> {
                 self.wires += 1;
                 Ok(())
             }
-            Item::Mapped | Item::Placement | Item::Other => Ok(()),
+            Item::Mapped | Item::Placement => Ok(()),
+            Item::Other if !names_shapes(self.faces.topology.geometry.file, entity) => Ok(()),
+            Item::Other => Err(record.wrong("is of a kind that is not known, and names shapes")),
             Item::Unknown => Err(record.wrong(explained(record.keyword))),
         }
     }
@@ -198,7 +121,8 @@ impl<'f> Shapes<'f> {
         if item(&original) != Item::Solid {
             return Err(record.wrong("is a replica of what is no solid that is read"));
         }
-        let faces = Faces::new(Topology::new(geometry), self.faces.looks, self.faces.progress);
+        let faces =
+            Faces::new(Topology::new(geometry), self.faces.looks, self.faces.progress, self.faces.reached);
         let mut inner = Shapes::new(faces);
         inner.solid(&original, color)?;
         let made = &inner.faces.topology.brep;

@@ -4,7 +4,7 @@ use super::{model, near, part, read, whole};
 use trueness_cad::surface::Surface;
 
 /// A product: its definition is `#{n}1`, its representation `#{n}4`.
-fn product(n: u32, name: &str, items: &str) -> String {
+pub(super) fn product(n: u32, name: &str, items: &str) -> String {
     format!(
         "#{n}0=PRODUCT('id','{name}','',());\n#{n}2=PRODUCT_DEFINITION_FORMATION('','',#{n}0);\n#{n}1=PRODUCT_DEFINITION('','',#{n}2,$);\n\
          #{n}3=PRODUCT_DEFINITION_SHAPE('','',#{n}1);\n#{n}5=SHAPE_DEFINITION_REPRESENTATION(#{n}3,#{n}4);\n\
@@ -13,7 +13,7 @@ fn product(n: u32, name: &str, items: &str) -> String {
 }
 
 /// An occurrence of `child` in `parent`; the transformation goes from item `from` to item `to`. `turned` names the parent first.
-fn occurrence(n: u32, [parent, child]: [u32; 2], [from, to]: [&str; 2], turned: bool) -> String {
+pub(super) fn occurrence(n: u32, [parent, child]: [u32; 2], [from, to]: [&str; 2], turned: bool) -> String {
     let [a, b] = if turned { [parent, child] } else { [child, parent] };
     format!(
         "#{n}0=NEXT_ASSEMBLY_USAGE_OCCURRENCE('o{n}','occurrence {n}','',#{parent}1,#{child}1,$);\n#{n}1=PRODUCT_DEFINITION_SHAPE('','',#{n}0);\n\
@@ -24,7 +24,7 @@ fn occurrence(n: u32, [parent, child]: [u32; 2], [from, to]: [&str; 2], turned: 
 }
 
 /// Units, axes, a sphere of radius 1 as item `#80`, and axes `#70` at (10, 0, 0), turned by a quarter about z.
-fn base() -> String {
+pub(super) fn base() -> String {
     part("#9", "").split("DATA;\n").nth(1).unwrap().split("#10=").next().unwrap().to_string()
         + "#70=AXIS2_PLACEMENT_3D('',#71,#8,#7);\n#71=CARTESIAN_POINT('',(10.,0.,0.));\n#80=MANIFOLD_SOLID_BREP('ball',#81);\n#81=CLOSED_SHELL('',(#82));\n\
            #82=ADVANCED_FACE('',(#83),#86,.T.);\n#83=FACE_BOUND('',#84,.T.);\n#84=VERTEX_LOOP('',#85);\n#85=VERTEX_POINT('',#87);\n\

@@ -9,7 +9,7 @@ use trueness_geom::num::random::Random;
 use trueness_geom::progress::Progress;
 
 /// A face on a cylinder between two circles, and one on a plane with a spline.
-const FACES: &str = "#50=OPEN_SHELL('',(#51,#61));\n#51=ADVANCED_FACE('',(#52,#62),#54,.T.);\n#52=FACE_BOUND('',#55,.T.);\n#54=CYLINDRICAL_SURFACE('',#9,2.);\n\
+pub(super) const FACES: &str = "#50=OPEN_SHELL('',(#51,#61));\n#51=ADVANCED_FACE('',(#52,#62),#54,.T.);\n#52=FACE_BOUND('',#55,.T.);\n#54=CYLINDRICAL_SURFACE('',#9,2.);\n\
     #55=EDGE_LOOP('',(#56));\n#56=ORIENTED_EDGE('',*,*,#57,.T.);\n#57=EDGE_CURVE('',#58,#58,#59,.T.);\n#58=VERTEX_POINT('',#60);\n\
     #59=CIRCLE('',#9,2.);\n#60=CARTESIAN_POINT('',(2.,0.,0.));\n#61=ADVANCED_FACE('',(#63),#64,.F.);\n#62=FACE_BOUND('',#65,.F.);\n\
     #63=FACE_OUTER_BOUND('',#55,.F.);\n#64=PLANE('',#9);\n#65=EDGE_LOOP('',(#66));\n#66=ORIENTED_EDGE('',*,*,#67,.T.);\n#67=EDGE_CURVE('',#68,#68,#69,.T.);\n\

@@ -3,6 +3,7 @@
 mod assembly;
 mod geometry;
 mod hostile;
+mod links;
 mod topology;
 
 use crate::cad::{CadFile, read_from};
