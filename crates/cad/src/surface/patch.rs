@@ -4,13 +4,13 @@
 //! Bernstein form. A part of the piece is done away with in one of four ways. No coefficient of `Y·Y − r²·w²` is below 0: it is nowhere
 //! nearer than `r`. All coefficients of one `D`, or of a combination of both, have one sign: the distance stands still nowhere within. The
 //! derivatives of both `D`, times the inverse of those in the middle, differ from the unit matrix by less than 1: `D` takes every value
-//! once at most, and a descent finds the only place. Else it is halved. Near to the piece none of this is needed: there the distance is
-//! convex ([`super::convex`]).
+//! once at most, and a descent finds the only place. Else it is halved. Mostly none of this is needed: bounds of the derivatives say
+//! that there is one foot, or none ([`super::convex`]).
 
 use super::bends::Bends;
-use super::convex::Convexity;
+use super::convex::{Convexity, Minima};
 use super::net::{Net, one_sign};
-use trueness_geom::space::{Aabb, Point, Vector, dot, minus, norm, times, unit};
+use trueness_geom::space::{Aabb, Point, Vector, dot, minus, norm, unit};
 use trueness_geom::spline::surface::Jet;
 use trueness_geom::spline::value::{Mass, Value};
 
@@ -72,8 +72,7 @@ impl Patch {
         let mut done: Vec<Patch> = vec![];
         while let Some((mut piece, bends, sides, depth)) = open.pop() {
             let jet = piece.jet([0.5; 2]);
-            let middle = [0, 1].map(|k| times(1.0 / sides[k], jet.first[k]));
-            let convexity = Convexity::new(&bends, middle, sides);
+            let convexity = Convexity::new(&bends, sides, &jet, &piece.bounds);
             if depth == 0 || convexity.holds(CONVEX_SIZES * piece.bounds.diagonal()) {
                 piece.convexity = Some(convexity);
                 done.push(piece);
@@ -110,11 +109,13 @@ impl Patch {
         if self.is_beyond(p, limit) {
             return;
         }
-        // A foot nearer than the limit is no farther from the point than that, and the rest of the piece by its size.
-        let reach = farthest(&self.bounds, &p).min(limit + self.bounds.diagonal());
-        if self.convexity.as_ref().is_some_and(|c| c.holds(reach)) {
-            visit([0.5; 2], [[0.0, 1.0]; 2]);
-            return;
+        match self.convexity.as_ref().map(|c| c.minima(&p, &self.bounds, limit)) {
+            Some(Minima::None) => return,
+            Some(Minima::One) => {
+                visit([0.5; 2], [[0.0, 1.0]; 2]);
+                return;
+            }
+            Some(Minima::Unknown) | None => {}
         }
         let about = self.net.map(|m| Mass { moment: m.moment.plus(-m.mass, p), mass: m.mass });
         let square = about.product(&about, |a, b| dot(a.moment, b.moment));
@@ -188,11 +189,6 @@ impl Patch {
         ];
         Jet { place, first: [su, sv], second }
     }
-}
-
-/// Distance of the farthest corner of a box.
-fn farthest(bounds: &Aabb, p: &Point) -> f64 {
-    norm([0, 1, 2].map(|k| (p[k] - bounds.min[k]).abs().max((bounds.max[k] - p[k]).abs())))
 }
 
 impl Part {

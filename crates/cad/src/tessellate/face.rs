@@ -1,7 +1,7 @@
 //! Facets of one face.
 
 use super::bend::{Bend, Bound};
-use super::edges::{EDGE_SHARE, Polyline};
+use super::edges::Polyline;
 use super::lines::{Fineness, lines, nodes};
 use super::polygon::{Between, Corner, Polygons, Source, polygons};
 use crate::trim::{Piece, Straight, Trim};
@@ -30,6 +30,8 @@ pub enum Outcome {
 
 type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
+/// Of the square of the tolerance, what heights over the surface may take at least, however coarse the edges are.
+const HEIGHTS_AT_LEAST: f64 = 0.25;
 /// Rounds in which facets that are too far from the surface are cut.
 const MAX_ROUNDS: usize = 10;
 /// Doublings of the lines of a face whose cuts need more places.
@@ -63,7 +65,10 @@ pub fn facets(
 ) -> Outcome {
     let has_side = |piece: &Piece| matches!(piece, Piece::Straight { kind: Straight::Side, .. });
     let is_bare = trim.rings.iter().flat_map(|r| &r.pieces).any(has_side);
-    let bend = Bend::new(&trim.chart, if is_bare { f64::INFINITY } else { EDGE_SHARE * fineness.distance });
+    let border = trim.edges.iter().map(|e| polylines[*e as usize].off).fold(0.0, f64::max);
+    let bend = Bend::new(&trim.chart, if is_bare { f64::INFINITY } else { border });
+    // Beyond an edge the height over the surface and the way back to the edge are at right angles.
+    let heights = HEIGHTS_AT_LEAST.max(1.0 - (border / fineness.distance).powi(2)).sqrt() * fineness.distance;
     let mut finer = 1;
     for doubling in 0..=MAX_DOUBLINGS {
         let lines = lines(trim, &bend, fineness, finer);
@@ -82,12 +87,12 @@ pub fn facets(
         if !work.add_nodes(nodes(trim, &lines)) {
             return Outcome::Failed("its border bounds no area in the parameters of its surface");
         }
-        let (wanted, cut_is_coarse) = work.refine(fineness.distance + 2.0 * trim.gap, most);
+        let (wanted, cut_is_coarse) = work.refine(heights + 2.0 * trim.gap, most);
         if cut_is_coarse && doubling < MAX_DOUBLINGS {
             finer *= 2;
             continue;
         }
-        let done = work.finish();
+        let done = work.finish(border);
         return match wanted.is_empty() {
             true => Outcome::Done(done),
             false => Outcome::Finer(wanted, Some(done)),
@@ -349,7 +354,7 @@ impl<'a> Work<'a> {
         (vec![], false)
     }
 
-    fn finish(self) -> FaceFacets {
+    fn finish(self, border: f64) -> FaceFacets {
         let all = self.all();
         let mut bound = Bound { distance: 0.0, is_proven: true };
         let (mut facets, mut parameters) = (vec![], vec![]);
@@ -364,7 +369,7 @@ impl<'a> Work<'a> {
             parameters.push(order.map(|i| own[i]));
         }
         // Corners on edges are as far from the surface as the edges.
-        bound.distance += self.trim.gap;
+        bound.distance = libm::hypot(bound.distance, border) + self.trim.gap;
         FaceFacets { vertices: self.vertices, facets, parameters, bound }
     }
 }
