@@ -7,7 +7,7 @@
 //! and the derivatives in the middle say how near that can be at most.
 
 use super::bends::{Bends, Seconds, Slopes};
-use trueness_geom::space::{Aabb, Point, Vector, dot, minus, norm};
+use trueness_geom::space::{Aabb, Point, Vector, dot, minus, norm, times};
 use trueness_geom::spline::surface::Jet;
 
 /// Bounds of the derivatives of a piece, by shares of the way along it.
@@ -53,17 +53,40 @@ impl Convexity {
             min: seconds[n].min.map(|x| factors[n] * x),
             max: seconds[n].max.map(|x| factors[n] * x),
         };
-        let slopes = Slopes::new(middle.first, lengths, [0.5; 2]);
+        let scale = bounds.min.iter().chain(&bounds.max).fold(0.0, |m: f64, x| m.max(x.abs()));
+        Convexity::of(middle.place, middle.first, [0, 1, 2].map(scaled), lengths, scale)
+    }
+
+    /// Of the part over a rectangle of shares, with its derivatives in its middle by the shares of the whole; and a box around it.
+    pub(super) fn part(
+        &self,
+        [[a, b], [c, d]]: [[f64; 2]; 2],
+        middle: &Jet,
+        whole: &Aabb,
+    ) -> (Convexity, Aabb) {
+        let [s, t] = [b - a, d - c];
+        let factors = [s * s, s * t, t * t];
+        let scaled = |n: usize| Aabb {
+            min: self.seconds[n].min.map(|x| factors[n] * x),
+            max: self.seconds[n].max.map(|x| factors[n] * x),
+        };
+        let seconds = [0, 1, 2].map(scaled);
+        let lengths = [0, 1, 2].map(|n| factors[n] * self.lengths[n]);
+        let first = [times(s, middle.first[0]), times(t, middle.first[1])];
+        let bulge = 0.125 * (lengths[0] + 2.0 * lengths[1] + lengths[2]) + NOISE * self.scale;
+        let half = [0, 1, 2].map(|k| 0.5 * (first[0][k].abs() + first[1][k].abs()) + bulge);
+        let bounds = Aabb {
+            min: [0, 1, 2].map(|k| (middle.place[k] - half[k]).max(whole.min[k])),
+            max: [0, 1, 2].map(|k| (middle.place[k] + half[k]).min(whole.max[k])),
+        };
+        (Convexity::of(middle.place, first, seconds, lengths, self.scale), bounds)
+    }
+
+    fn of(place: Point, first: [Vector; 2], seconds: [Aabb; 3], lengths: Seconds, scale: f64) -> Convexity {
+        let slopes = Slopes::new(first, lengths, [0.5; 2]);
         let (least, most) = (slopes.least(), slopes.greatest());
-        Convexity {
-            place: middle.place,
-            first: middle.first,
-            squares: [0, 1].map(|k| [least[k] * least[k], most[k] * most[k]]),
-            product: slopes.product(),
-            seconds: [0, 1, 2].map(scaled),
-            lengths,
-            scale: bounds.min.iter().chain(&bounds.max).fold(0.0, |m: f64, x| m.max(x.abs())),
-        }
+        let squares = [0, 1].map(|k| [least[k] * least[k], most[k] * most[k]]);
+        Convexity { place, first, squares, product: slopes.product(), seconds, lengths, scale }
     }
 
     /// Whether the squared distance is convex over all of the piece, for any point nowhere farther from it than that.

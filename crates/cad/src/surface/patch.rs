@@ -20,6 +20,9 @@ const NOISE: f64 = 256.0 * f64::EPSILON;
 const DEPTH: u32 = 90;
 /// Parts looked at for one point at most.
 const MAX_PARTS_SEARCHED: usize = 20_000;
+/// Parts of a piece that bounds of its derivatives are asked of at most, and that are open at a time.
+const MAX_PARTS_BY_BOUNDS: usize = 48;
+const MAX_OPEN_PARTS: usize = 16;
 /// A piece is halved until the distance is convex over it for points of so many times its size.
 const CONVEX_SIZES: f64 = 1.0;
 /// How far the derivatives may differ from those in the middle of a part that has one foot at most; below 1.
@@ -109,13 +112,8 @@ impl Patch {
         if self.is_beyond(p, limit) {
             return;
         }
-        match self.convexity.as_ref().map(|c| c.minima(&p, &self.bounds, limit)) {
-            Some(Minima::None) => return,
-            Some(Minima::One) => {
-                visit([0.5; 2], [[0.0, 1.0]; 2]);
-                return;
-            }
-            Some(Minima::Unknown) | None => {}
+        if self.is_done_by_bounds(p, &mut limit, &mut visit) {
+            return;
         }
         let about = self.net.map(|m| Mass { moment: m.moment.plus(-m.mass, p), mass: m.mass });
         let square = about.product(&about, |a, b| dot(a.moment, b.moment));
@@ -156,6 +154,54 @@ impl Patch {
                 }
             }
         }
+    }
+
+    /// Halves it as long as bounds of its derivatives leave open what is within; whether they do not in the end.
+    fn is_done_by_bounds(
+        &self,
+        p: Point,
+        limit: &mut f64,
+        visit: &mut impl FnMut([f64; 2], [[f64; 2]; 2]) -> f64,
+    ) -> bool {
+        let Some(whole) = &self.convexity else { return false };
+        match whole.minima(&p, &self.bounds, *limit) {
+            Minima::None => return true,
+            Minima::One => {
+                *limit = visit([0.5; 2], [[0.0, 1.0]; 2]);
+                return true;
+            }
+            Minima::Unknown => {}
+        }
+        let mut open = [[[0.0, 1.0]; 2]; MAX_OPEN_PARTS];
+        let mut count = 1;
+        for _ in 0..MAX_PARTS_BY_BOUNDS {
+            if count == 0 {
+                return true;
+            }
+            count -= 1;
+            let range = open[count];
+            let middle = range.map(|[a, b]| 0.5 * (a + b));
+            let jet = self.jet(middle);
+            let (part, bounds) = whole.part(range, &jet, &self.bounds);
+            match part.minima(&p, &bounds, *limit) {
+                Minima::None => {}
+                Minima::One => *limit = visit(middle, range),
+                Minima::Unknown if count + 2 > MAX_OPEN_PARTS => return false,
+                Minima::Unknown => {
+                    let extent = |k: usize| norm(jet.first[k]) * (range[k][1] - range[k][0]);
+                    let k = usize::from(extent(1) > extent(0));
+                    let mut halves = [range; 2];
+                    (halves[0][k][1], halves[1][k][0]) = (middle[k], middle[k]);
+                    // The one that is nearer about lies last: what it holds does away with the other one.
+                    if dot(minus(jet.place, p), jet.first[k]) > 0.0 {
+                        halves.reverse();
+                    }
+                    open[count..count + 2].copy_from_slice(&halves);
+                    count += 2;
+                }
+            }
+        }
+        count == 0
     }
 
     /// Whether all control points lie beyond a plane at this distance across the way to their middle.

@@ -98,7 +98,8 @@ impl Tessellation {
                     if progress.cancelled() {
                         return Err(Cancelled);
                     }
-                    let outcome = trims[*f].map(|t| facets(t, &polylines, &positions, fineness, most));
+                    let own = |t| facets(t, (&polylines, &positions), fineness, most, progress);
+                    let outcome = trims[*f].map(own).transpose()?;
                     if round == 0 {
                         progress.advance(1);
                     }
