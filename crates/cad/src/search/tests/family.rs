@@ -258,7 +258,7 @@ fn no_answer_is_farther_than_that_of_a_grid() {
 
 /// The same of many models.
 #[test]
-#[ignore = "two minutes"]
+#[ignore = "100,000 queries: minutes"]
 fn no_answer_of_many_is_farther_than_that_of_a_grid() {
     let (wrong, asked, most) = farther(4, 1200, 100);
     assert!(asked > 100_000, "{asked}");
