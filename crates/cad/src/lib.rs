@@ -26,6 +26,7 @@ pub mod measure;
 pub mod model;
 pub mod search;
 pub mod section;
+mod stop;
 pub mod surface;
 pub mod tessellate;
 pub mod tolerances;

@@ -294,14 +294,14 @@ fn an_incomplete_model_passes_no_part() {
     let (step, faces) = plate(0.0);
     let plan = bore_and_plane("name = \"BORE\"", "name = \"TOP\"");
     let whole = inspected(&step, &scan(0.02), &plan).unwrap();
-    assert_eq!(whole.verdict.to_string(), "pass");
+    assert_eq!(whole.verdict, Verdict::Pass);
     // The front is a plane of the third face.
     let front = format!("#{}=ADVANCED_FACE", faces[2]);
     let line = step.lines().find(|line| line.starts_with(&front)).unwrap();
     let surface = line.rsplit(",#").next().unwrap().split(',').next().unwrap();
     let broken = step.replace(&format!("#{surface}=PLANE("), &format!("#{surface}=FLOATING_CARPET("));
     let document = inspected(&broken, &scan(0.02), &plan).unwrap();
-    assert_eq!(document.verdict.to_string(), "undecided");
+    assert_eq!(document.verdict, Verdict::Undecided);
     let reasons: Vec<String> = document.verdict_reasons.iter().map(|r| r.text.clone()).collect();
     assert!(reasons.iter().any(|r| r.contains("7 of 8 faces of the reference were read")), "{reasons:?}");
     assert!(document.characteristics.iter().all(|c| c.value.is_some()));

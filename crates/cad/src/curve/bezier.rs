@@ -12,6 +12,8 @@ use trueness_geom::spline::value::{Mass, Value};
 const NOISE: f64 = 64.0 * f64::EPSILON;
 /// Halvings at most; by then a part is as short as a rounding of its parameter.
 const DEPTH: u32 = 50;
+/// Coefficients of a polynomial that is evaluated without allocating, at most.
+const INLINE: usize = 24;
 /// Steps of bisection with Newton's at most.
 const ROOT_STEPS: usize = 100;
 
@@ -27,6 +29,10 @@ type Bernstein = Vec<f64>;
 impl Bezier {
     /// The place at a share of the way.
     pub(super) fn at(&self, t: f64) -> Point {
+        let end = if t == 0.0 { self.points.first() } else { self.points.last().filter(|_| t == 1.0) };
+        if let Some(end) = end {
+            return end.place().unwrap_or([f64::NAN; 3]);
+        }
         let mut level = [Mass::<3>::ZERO; 16];
         let n = self.points.len();
         if n > level.len() {
@@ -40,7 +46,7 @@ impl Bezier {
     /// Hands over parameters within where the distance from `p` may have a minimum of less than `limit`; the ends are not among them unless
     /// one is. The callback says a new limit. Where the distance is the same everywhere, some parameter within.
     pub(super) fn minima(&self, p: Point, mut limit: f64, mut visit: impl FnMut(f64) -> f64) {
-        if self.is_beyond(p, limit) {
+        if self.is_beyond(p, limit) || self.is_left_behind(p) {
             return;
         }
         let about: Vec<Mass<3>> =
@@ -90,6 +96,30 @@ impl Bezier {
         self.points.iter().all(|m| dot(m.moment, way) > height * m.mass)
     }
 
+    /// Whether the distance only grows, or only falls. The way from the point is a mean of the ways to the control points, and the
+    /// derivative a sum of the sides between these with factors not below 0 (Floater, Derivatives of rational Bézier curves, Computer
+    /// Aided Geometric Design 9, 1992): no product of both has another sign.
+    fn is_left_behind(&self, p: Point) -> bool {
+        if self.points.iter().any(|m| m.mass <= 0.0) {
+            return false;
+        }
+        let mut sense = 0.0;
+        for w in self.points.windows(2) {
+            let side = plus(times(w[0].mass, w[1].moment), times(-w[1].mass, w[0].moment));
+            let length = norm(side);
+            for m in &self.points {
+                let way = plus(m.moment, times(-m.mass, p));
+                let product = dot(way, side);
+                let noise = NOISE * length * (norm(m.moment) + m.mass.abs() * norm(p));
+                if product.abs() <= noise || product * sense < 0.0 {
+                    return false;
+                }
+                sense = product;
+            }
+        }
+        sense != 0.0
+    }
+
     /// Hands over parameters within where coordinate `k` has its extremes.
     pub(super) fn extremes(&self, k: usize, mut visit: impl FnMut(f64)) {
         let [own, masses] = [|m: &Mass<3>, k: usize| m.moment[k], |m: &Mass<3>, _| m.mass]
@@ -123,12 +153,7 @@ impl Bezier {
     pub(super) fn bend(&self) -> [f64; 2] {
         let places: Vec<Point> = self.places().collect();
         let [Some(first), Some(last)] = [places.first(), places.last()] else { return [f64::INFINITY; 2] };
-        let chord = minus(*last, *first);
-        let off = |p: &Point| {
-            let arm = minus(*p, *first);
-            let share = (dot(arm, chord) / dot(chord, chord)).clamp(0.0, 1.0);
-            norm(minus(arm, times(if share.is_finite() { share } else { 0.0 }, chord)))
-        };
+        let off = |p: &Point| off_chord(p, first, last);
         let legs: Vec<Vector> =
             places.windows(2).filter_map(|w| unit(minus(w[1], w[0])).map(|(d, _)| d)).collect();
         let turn = |w: &[Vector]| libm::atan2(norm(cross(w[0], w[1])), dot(w[0], w[1]));
@@ -147,6 +172,13 @@ impl Bezier {
     pub(super) fn places(&self) -> impl Iterator<Item = Point> + '_ {
         self.points.iter().filter_map(Mass::place)
     }
+}
+
+/// Distance of a place from the straight line between two others.
+pub(super) fn off_chord(p: &Point, start: &Point, end: &Point) -> f64 {
+    let (chord, arm) = (minus(*end, *start), minus(*p, *start));
+    let share = (dot(arm, chord) / dot(chord, chord)).clamp(0.0, 1.0);
+    norm(minus(arm, times(if share.is_finite() { share } else { 0.0 }, chord)))
 }
 
 fn collapse(level: &mut [Mass<3>], t: f64) -> Point {
@@ -251,13 +283,21 @@ fn root(coefficients: &[f64]) -> f64 {
 /// A polynomial and its derivative.
 fn value(coefficients: &[f64], t: f64) -> [f64; 2] {
     let n = coefficients.len() - 1;
-    let mut level = coefficients.to_vec();
+    let mut inline = [0.0; INLINE];
+    let mut many;
+    let level: &mut [f64] = if n < INLINE {
+        inline[..=n].copy_from_slice(coefficients);
+        &mut inline[..=n]
+    } else {
+        many = coefficients.to_vec();
+        &mut many
+    };
     for k in 1..n {
         for i in 0..=n - k {
             level[i] += t * (level[i + 1] - level[i]);
         }
     }
-    match level[..] {
+    match *level {
         [a, b, ..] => [a + t * (b - a), n as f64 * (b - a)],
         _ => [level[0], 0.0],
     }

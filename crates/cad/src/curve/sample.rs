@@ -1,5 +1,6 @@
 //! Chords that keep near to a curve, and descents to a near place.
 
+use super::bezier::off_chord;
 use super::conic::Conic;
 use super::kinds::Span;
 use super::part::{Foot, Part, Shape};
@@ -26,6 +27,28 @@ impl Span {
             all.reverse();
         }
         all
+    }
+
+    /// How far the curve between two shares of the way may be from the chord between them, each with the next.
+    pub fn chords_off(&self, shares: &[f64]) -> f64 {
+        let feet = self.feet();
+        let [from, to] = self.range;
+        let parameters: Vec<f64> = shares.iter().map(|s| from + s * (to - from)).collect();
+        let off = |w: &[f64]| {
+            let kept = [w[0].min(w[1]), w[0].max(w[1])];
+            let first = feet.parts.partition_point(|part| part.range[1] <= kept[0]);
+            let inner = feet.parts[first..].iter().take_while(|part| part.range[0] < kept[1]);
+            let parts: Vec<Part> =
+                inner.map(|p| p.within([kept[0].max(p.range[0]), kept[1].min(p.range[1])])).collect();
+            let [Some(start), Some(end)] =
+                [parts.first().map(|p| p.at(p.own[0])), parts.last().map(|p| p.at(p.own[1]))]
+            else {
+                return 0.0;
+            };
+            let ends_off = parts.windows(2).map(|w| off_chord(&w[0].at(w[0].own[1]), &start, &end));
+            parts.iter().map(Part::chord_off).fold(0.0, f64::max) + ends_off.fold(0.0, f64::max)
+        };
+        parameters.windows(2).map(off).fold(0.0, f64::max)
     }
 
     /// The place that a descent from the parameter `start` comes to: nearer than where it starts, and the nearest one around. Newton's
@@ -60,6 +83,18 @@ impl Span {
 }
 
 impl Part {
+    /// How far it may be from the chord between its ends.
+    fn chord_off(&self) -> f64 {
+        match &self.shape {
+            Shape::Line { .. } => 0.0,
+            Shape::Conic(conic) => {
+                let [low, high] = [self.own[0].min(self.own[1]), self.own[0].max(self.own[1])];
+                0.125 * (high - low) * (high - low) * conic.bend([low, high])
+            }
+            Shape::Bezier(bezier) => bezier.bend()[0],
+        }
+    }
+
     /// Adds parameters within the piece.
     fn sample(&self, tolerance: f64, angle: f64, all: &mut Vec<f64>) {
         match &self.shape {

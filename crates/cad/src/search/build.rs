@@ -1,20 +1,22 @@
 //! Takes a boundary apart for the search.
 
 use super::cover::{self, cover_of_face, pieces_of_edge};
-use super::face::Face;
+use super::face::Face as Searched;
 use super::region::Region;
 use super::side::Sides;
 use super::tree::{Boxes, Item};
-use crate::brep::{Bounds, Brep, Edge, Loop};
+use crate::brep::{Bounds, Brep, Edge, Face, Loop};
 use crate::curve::CurveFeet;
+use crate::stop::go_on;
 use crate::surface::SurfaceFeet;
 use std::collections::BTreeMap;
 use trueness_geom::parallel::prelude::*;
+use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Aabb, Point};
 
 /// A boundary taken apart.
 pub(super) struct Prepared<R> {
-    pub(super) faces: Vec<Face<R>>,
+    pub(super) faces: Vec<Searched<R>>,
     pub(super) edges: Vec<Border>,
     pub(super) vertices: Vec<Point>,
     pub(super) targets: Vec<Target>,
@@ -22,8 +24,10 @@ pub(super) struct Prepared<R> {
     pub(super) sides: Sides,
     /// Distance within which a place of an edge is its end.
     pub(super) same: f64,
-    /// Distance within which faces of two shells are about as near.
+    /// Distance within which places are about as near.
     pub(super) touching: f64,
+    /// The same for faces of two shells; 0 where there is only one.
+    pub(super) rivals_within: f64,
 }
 
 /// An edge, or a side of a face that has none.
@@ -51,7 +55,7 @@ const BOXES_OF_SIZE: f64 = 24.0;
 
 /// Faces and their borders, before there are boxes around them.
 struct Parts<R> {
-    faces: Vec<Face<R>>,
+    faces: Vec<Searched<R>>,
     edges: Vec<Border>,
     /// Whether a face with a region uses the edge.
     used: Vec<bool>,
@@ -64,14 +68,20 @@ struct Parts<R> {
 }
 
 /// Takes apart the faces that have a region, and their borders.
-pub(super) fn prepared<R: Region>(brep: &Brep, regions: Vec<Option<R>>) -> Prepared<R> {
-    let parts = Parts::new(brep, regions);
+pub(super) fn prepared<R: Region>(
+    brep: &Brep,
+    regions: Vec<Option<R>>,
+    progress: &dyn Progress,
+) -> Result<Prepared<R>, Cancelled> {
+    let parts = Parts::new(brep, regions, progress)?;
     let vertices: Vec<Point> = brep.vertices.iter().map(|v| v.place).collect();
     let size = parts.extent().diagonal();
-    let (targets, boxes) = parts.boxes(&vertices, size / BOXES_OF_SIZE);
+    let (targets, boxes) = parts.boxes(&vertices, size / BOXES_OF_SIZE, progress)?;
     let Parts { faces, edges, side_faces, .. } = parts;
-    let sides = Sides::new(brep, &faces, side_faces);
-    Prepared {
+    let sides = Sides::new(brep, &faces, side_faces, progress)?;
+    let touching = TOUCHING_SHELLS * size;
+    let has_rivals = faces.windows(2).any(|w| w[0].shell != w[1].shell);
+    Ok(Prepared {
         faces,
         edges,
         vertices,
@@ -79,12 +89,30 @@ pub(super) fn prepared<R: Region>(brep: &Brep, regions: Vec<Option<R>>) -> Prepa
         boxes: Boxes::new(boxes),
         sides,
         same: END_OF_EDGE_SHARE * size,
-        touching: TOUCHING_SHELLS * size,
+        touching,
+        rivals_within: if has_rivals { touching } else { 0.0 },
+    })
+}
+
+impl<R> Prepared<R> {
+    /// A boundary without faces.
+    pub(super) fn none() -> Prepared<R> {
+        Prepared {
+            faces: vec![],
+            edges: vec![],
+            vertices: vec![],
+            targets: vec![],
+            boxes: Boxes::new(vec![]),
+            sides: Sides::default(),
+            same: 0.0,
+            touching: 0.0,
+            rivals_within: 0.0,
+        }
     }
 }
 
 impl<R: Region> Parts<R> {
-    fn new(brep: &Brep, regions: Vec<Option<R>>) -> Parts<R> {
+    fn new(brep: &Brep, regions: Vec<Option<R>>, progress: &dyn Progress) -> Result<Parts<R>, Cancelled> {
         let border = |edge: &Edge| Border {
             feet: edge.span.feet(),
             range: edge.span.range,
@@ -103,15 +131,16 @@ impl<R: Region> Parts<R> {
             .flat_map(|(number, shell)| shell.faces.iter().map(move |face| (*face, number)))
             .collect();
         let mut regions = regions.into_iter();
-        for (number, face) in (0u32..).zip(&brep.faces) {
-            let feet = SurfaceFeet::new(&face.surface);
+        let feet = |face: &Face| go_on(progress).map(|()| SurfaceFeet::new(&face.surface));
+        let all: Vec<SurfaceFeet> = brep.faces.par_iter().map(feet).collect::<Result<_, _>>()?;
+        for ((number, face), feet) in (0u32..).zip(&brep.faces).zip(all) {
             let region = regions.next().flatten();
             let own = region.as_ref().map_or(vec![], |r| parts.borders(number, &face.bounds, &feet, r));
             parts.around.push(own);
             let shell = shells.get(&number).copied();
-            parts.faces.push(Face { feet, region, is_reversed: face.reversed, shell });
+            parts.faces.push(Searched { feet, region, is_reversed: face.reversed, shell });
         }
-        parts
+        Ok(parts)
     }
 
     /// Notes what is around a face.
@@ -154,17 +183,24 @@ impl<R: Region> Parts<R> {
     }
 
     /// The targets, and boxes around them that are about as long as `step`.
-    fn boxes(&self, vertices: &[Point], step: f64) -> (Vec<Target>, Vec<Item>) {
-        let pieces: Vec<Vec<Aabb>> =
-            self.edges.iter().map(|border| pieces_of_edge(&border.feet, step)).collect();
+    fn boxes(
+        &self,
+        vertices: &[Point],
+        step: f64,
+        progress: &dyn Progress,
+    ) -> Result<(Vec<Target>, Vec<Item>), Cancelled> {
+        let own = |border: &Border| go_on(progress).map(|()| pieces_of_edge(&border.feet, step));
+        let pieces: Vec<Vec<Aabb>> = self.edges.iter().map(own).collect::<Result<_, _>>()?;
         let covers: Vec<Vec<(u32, Vec<cover::Cover>)>> = (0..self.faces.len())
             .into_par_iter()
             .map(|f| {
+                go_on(progress)?;
+                progress.advance(1);
                 let borders: Vec<Aabb> =
                     self.around[f].iter().flat_map(|e| pieces[*e].iter().copied()).collect();
-                cover_of_face(&self.faces[f], step, &borders)
+                Ok(cover_of_face(&self.faces[f], step, &borders))
             })
-            .collect();
+            .collect::<Result<_, Cancelled>>()?;
         let (mut boxes, mut targets) = (vec![], vec![]);
         let mut add = |target: Target, own: &[cover::Cover]| {
             let target_number = targets.len() as u32;
@@ -190,7 +226,7 @@ impl<R: Region> Parts<R> {
                 add(Target::Vertex(*vertex), &[(Aabb::of(&[*place]), *place)]);
             }
         }
-        (targets, boxes)
+        Ok((targets, boxes))
     }
 }
 

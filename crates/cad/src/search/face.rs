@@ -25,11 +25,11 @@ const POLE_HALVINGS: usize = 30;
 
 impl<R: Region> Face<R> {
     /// The outward unit normal; `None` at a pole.
-    pub(super) fn outward(&self, [u, v]: [f64; 2]) -> Option<Vector> {
-        let normal = self.feet.surface().normal(u, v)?;
+    pub(super) fn outward(&self, at: [f64; 2]) -> Option<Vector> {
+        let jet = self.feet.jet(at);
+        let (normal, _) = unit(cross(jet.first[0], jet.first[1]))?;
         // At a pole what is left of a derivative is rounding.
-        let place = self.feet.surface().at(u, v);
-        if self.pole_at(&place).is_some() {
+        if self.pole_at(&jet.place).is_some() {
             return None;
         }
         Some(if self.is_reversed { times(-1.0, normal) } else { normal })
@@ -45,8 +45,8 @@ impl<R: Region> Face<R> {
     }
 
     /// How much the surface bends towards `up` along the tangent `way`.
-    pub(super) fn bend(&self, [u, v]: [f64; 2], way: Vector, up: Vector) -> Option<f64> {
-        let jet = self.feet.surface().jet(u, v);
+    pub(super) fn bend(&self, at: [f64; 2], way: Vector, up: Vector) -> Option<f64> {
+        let jet = self.feet.jet(at);
         let [du, dv] = jet.first;
         let [a, b, c] = [dot(du, du), dot(du, dv), dot(dv, dv)];
         let [x, y] = [dot(du, way), dot(dv, way)];

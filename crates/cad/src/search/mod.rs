@@ -2,7 +2,7 @@
 //!
 //! | task | where |
 //! |---|---|
-//! | prepare a boundary | [`Search::new`] |
+//! | prepare a boundary | [`Search::new`], [`Search::watched`] |
 //! | nearest place of one point, of many | [`Search::nearest`], [`Search::map`] |
 //! | what is asked of a trimmed face | [`Region`] |
 //! | inside or outside | `side` |
@@ -37,7 +37,7 @@ use face::Face;
 use nearest::{Best, Candidate};
 use trueness_geom::closest::{QueryError, check_points};
 use trueness_geom::parallel::prelude::*;
-use trueness_geom::progress::{Cancelled, Progress};
+use trueness_geom::progress::{Cancelled, Progress, Silent};
 use trueness_geom::space::{Point, Vector, minus, norm, plus, times};
 
 /// A boundary, ready to be asked for nearest places.
@@ -61,7 +61,20 @@ const CHUNK: usize = 256;
 impl<R: Region> Search<R> {
     /// Prepares a boundary; `regions` are those of its faces, in their order. Faces without one, and what only they use, are passed over.
     pub fn new(brep: &Brep, regions: Vec<Option<R>>) -> Search<R> {
-        Search(prepared(brep, regions))
+        // Who is silent never stops.
+        Search::watched(brep, regions, &Silent).unwrap_or_else(|Cancelled| Search(Prepared::none()))
+    }
+
+    /// As [`Search::new`], asking `progress` whether to go on; it hears of faces.
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn watched(
+        brep: &Brep,
+        regions: Vec<Option<R>>,
+        progress: &dyn Progress,
+    ) -> Result<Search<R>, Cancelled> {
+        Ok(Search(prepared(brep, regions, progress)?))
     }
 
     /// The nearest place of a point. A point that is not finite has a distance that is not.
@@ -129,7 +142,7 @@ impl<R: Region> Search<R> {
 
     fn best(&self, p: &Point, scratch: &mut Scratch) -> Best {
         if !p.iter().all(|x| x.is_finite()) {
-            return Best::none(self.0.touching);
+            return Best::none(self.0.rivals_within);
         }
         let (best, reach) = self.best_within(p, Some(self.0.touching), scratch);
         if best.own.distance <= reach { best } else { self.best_within(p, None, scratch).0 }
@@ -138,7 +151,7 @@ impl<R: Region> Search<R> {
     /// The best place, looked for with the help of known places or without, and how far it was looked for in the end.
     fn best_within(&self, p: &Point, slack: Option<f64>, scratch: &mut Scratch) -> (Best, f64) {
         scratch.point += 1;
-        let mut best = Best::none(self.0.touching);
+        let mut best = Best::none(self.0.rivals_within);
         let Scratch { seen, point, stack } = scratch;
         let reach = self.0.boxes.visit(p, slack, stack, |target, reach| {
             let own = &mut seen[target as usize];
@@ -157,13 +170,14 @@ impl<R: Region> Search<R> {
             Target::Unit { face, unit } => {
                 let own = &self.0.faces[face as usize];
                 let Face { feet, region: Some(region), shell, .. } = own else { return };
-                feet.visit_unit(unit as usize, *p, reach, &mut |foot| {
+                let within = |best: &Best| best.reach_for(*shell).min(reach);
+                feet.visit_unit(unit as usize, *p, within(best), &mut |foot| {
                     let Foot { parameters, place, distance } = foot;
-                    if distance < best.reach() && region.contains(parameters) {
+                    if distance < within(best) && region.contains(parameters) {
                         let on = On::Face(face);
                         best.take(Candidate { distance, place, on, parameters, shell: *shell });
                     }
-                    best.reach().min(reach)
+                    within(best)
                 });
             }
             Target::Edge(edge) => {

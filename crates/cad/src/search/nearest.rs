@@ -101,6 +101,11 @@ impl Best {
         (self.own.distance + self.same).next_up()
     }
 
+    /// The same for faces of a shell: only those of others are of interest where they are about as near.
+    pub(super) fn reach_for(&self, shell: Option<u32>) -> f64 {
+        if shell.is_some() && shell == self.own.shell { self.own.distance.next_up() } else { self.reach() }
+    }
+
     /// The better of both; the other one is kept if it is a rival.
     pub(super) fn take(&mut self, other: Candidate) {
         let (first, second) = if other.is_before(&self.own) { (other, self.own) } else { (self.own, other) };

@@ -8,6 +8,10 @@ pub trait Region: Sync + Send {
     fn contains(&self, at: [f64; 2]) -> bool;
     /// First and last `u`, first and last `v` of the face, on one sheet where parameters repeat.
     fn window(&self) -> [[f64; 2]; 2];
+    /// How far its edges may be from its surface.
+    fn gap(&self) -> f64 {
+        0.0
+    }
 }
 
 impl Region for Trim {
@@ -16,5 +20,8 @@ impl Region for Trim {
     }
     fn window(&self) -> [[f64; 2]; 2] {
         self.window
+    }
+    fn gap(&self) -> f64 {
+        self.gap
     }
 }

@@ -12,11 +12,14 @@ use super::face::Face;
 use super::nearest::{Candidate, On, Side};
 use super::region::Region;
 use crate::brep::{Bounds, Brep, Edge, EdgeUse, Loop};
+use crate::stop::go_on;
 use crate::surface::SurfaceFeet;
 use std::f64::consts::{PI, TAU};
+use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 
 /// What meets at edges and corners.
+#[derive(Default)]
 pub(super) struct Sides {
     edges: Vec<EdgeSides>,
     corners: Vec<Vec<Corner>>,
@@ -57,7 +60,12 @@ const UNSURE: f64 = 1e-9;
 const CORNER_CHORD_SHARE: f64 = 1e-3;
 
 impl Sides {
-    pub(super) fn new<R: Region>(brep: &Brep, faces: &[Face<R>], side_faces: Vec<u32>) -> Sides {
+    pub(super) fn new<R: Region>(
+        brep: &Brep,
+        faces: &[Face<R>],
+        side_faces: Vec<u32>,
+        progress: &dyn Progress,
+    ) -> Result<Sides, Cancelled> {
         let mut edges: Vec<EdgeSides> = brep.edges.iter().map(|_| EdgeSides::default()).collect();
         let mut corners: Vec<Vec<Corner>> = brep.vertices.iter().map(|_| vec![]).collect();
         for (number, (face, own)) in brep.faces.iter().zip(faces).enumerate() {
@@ -74,6 +82,7 @@ impl Sides {
                     Loop::Edges(uses) => uses,
                 };
                 for (k, outgoing) in uses.iter().enumerate() {
+                    go_on(progress)?;
                     let (Some(edge), Some(sides)) =
                         (brep.edges.get(outgoing.edge as usize), edges.get_mut(outgoing.edge as usize))
                     else {
@@ -89,7 +98,7 @@ impl Sides {
                 }
             }
         }
-        Sides { edges, corners, side_faces, spans: brep.edges.clone() }
+        Ok(Sides { edges, corners, side_faces, spans: brep.edges.clone() })
     }
 
     /// The face, the side and the normal at the best place.

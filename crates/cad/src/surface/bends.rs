@@ -5,7 +5,7 @@
 //! cylinder, they cancel there too.
 
 use super::net::Net;
-use trueness_geom::space::{Vector, cross, dot, minus, norm, plus, times};
+use trueness_geom::space::{Aabb, Vector, cross, dot, minus, norm, plus, times};
 use trueness_geom::spline::value::Mass;
 
 /// Bounds of the second derivatives by `uu`, `uv` and `vv`.
@@ -58,6 +58,20 @@ impl Bends {
         self.most(|v| dot(v, way).abs())
     }
 
+    /// Boxes around them.
+    pub(crate) fn boxes(&self) -> [Aabb; 3] {
+        let cube = |w: f64| w * w * w;
+        let most = self.weights.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let (least, most) = (cube(self.weights.least()), cube(most));
+        self.numerators.each_ref().map(|n| {
+            let own = Aabb::of(&n.values);
+            Aabb {
+                min: own.min.map(|x| x / if x < 0.0 { least } else { most }),
+                max: own.max.map(|x| x / if x > 0.0 { least } else { most }),
+            }
+        })
+    }
+
     fn most(&self, size: impl Fn(Vector) -> f64) -> Seconds {
         let least = self.weights.least();
         let of = |n: &Net<Vector>| {
@@ -93,9 +107,15 @@ impl Slopes {
         [0, 1].map(|k| (norm(self.middle[k]) - self.off[k]).max(0.0))
     }
 
-    /// Their scalar product at most.
-    pub(crate) fn product(&self) -> f64 {
-        dot(self.middle[0], self.middle[1]).abs() + self.off_product()
+    /// Their lengths at most.
+    pub(crate) fn greatest(&self) -> [f64; 2] {
+        [0, 1].map(|k| norm(self.middle[k]) + self.off[k])
+    }
+
+    /// Their scalar product at least and at most.
+    pub(crate) fn product(&self) -> [f64; 2] {
+        let (own, off) = (dot(self.middle[0], self.middle[1]), self.off_product());
+        [own - off, own + off]
     }
 
     /// Their vector product in the middle, and by how much it differs from that at most.
@@ -161,6 +181,8 @@ mod tests {
                         for n in 0..3 {
                             assert!(norm(jet.second[n]) <= most[n] * (1.0 + 1e-12) + 1e-10, "{n} {at:?}");
                             assert!(dot(jet.second[n], way).abs() <= along[n] * (1.0 + 1e-12) + 1e-10);
+                            let around = part.boxes()[n].widened(1e-9);
+                            assert_eq!(around.distance(&jet.second[n]), 0.0, "{n} {at:?}");
                         }
                     }
                 }
@@ -184,7 +206,9 @@ mod tests {
                 let [u, v] = [n % 5, n / 5].map(|k| f64::from(k) / 4.0);
                 let [du, dv] = surface.jet(u, v).first;
                 assert!(norm(du) >= slopes.least()[0] - 1e-9 && norm(dv) >= slopes.least()[1] - 1e-9);
-                assert!(dot(du, dv).abs() <= slopes.product() + 1e-9);
+                assert!(norm(du) <= slopes.greatest()[0] + 1e-9 && norm(dv) <= slopes.greatest()[1] + 1e-9);
+                let [least, most] = slopes.product();
+                assert!((least - 1e-9..=most + 1e-9).contains(&dot(du, dv)));
                 assert!(norm(minus(cross(du, dv), normal)) <= off + 1e-9);
             }
         }

@@ -185,55 +185,71 @@ impl Net<f64> {
 /// Degree up to which a place is found without allocating.
 const INLINE: usize = 8;
 
+/// The moment and the mass.
+type Four = [f64; 4];
+
 impl Net<Mass<3>> {
     /// Value and derivatives by `u`, `v`, `uu`, `uv` and `vv` at shares of the way.
     pub(super) fn six(&self, [s, t]: [f64; 2]) -> [Mass<3>; 6] {
         let [p, q] = self.counts;
-        let mut rows = [[Mass::<3>::ZERO; 3]; INLINE + 1];
+        let mut rows = [[[0.0; 4]; 3]; INLINE + 1];
         let mut many;
-        let rows: &mut [[Mass<3>; 3]] = if p <= INLINE + 1 {
+        let rows: &mut [[Four; 3]] = if p <= INLINE + 1 {
             &mut rows[..p]
         } else {
-            many = vec![[Mass::<3>::ZERO; 3]; p];
+            many = vec![[[0.0; 4]; 3]; p];
             &mut many
         };
         for (row, own) in rows.iter_mut().zip(self.values.chunks_exact(q)) {
-            *row = three(own.iter().copied(), q, t);
+            *row = three(own.iter().map(|m| [m.moment[0], m.moment[1], m.moment[2], m.mass]), q, t);
         }
         let [value, u, uu] = three(rows.iter().map(|r| r[0]), p, s);
         let [v, uv, _] = three(rows.iter().map(|r| r[1]), p, s);
         let [vv, _, _] = three(rows.iter().map(|r| r[2]), p, s);
-        [value, u, v, uu, uv, vv]
+        [value, u, v, uu, uv, vv].map(|[x, y, z, mass]| Mass { moment: [x, y, z], mass })
     }
 }
 
 /// Value, first and second derivative of a polynomial by its `n` coefficients.
-fn three(coefficients: impl Iterator<Item = Mass<3>>, n: usize, t: f64) -> [Mass<3>; 3] {
-    let mut own = [Mass::<3>::ZERO; INLINE + 1];
+#[inline]
+fn three(coefficients: impl Iterator<Item = Four>, n: usize, t: f64) -> [Four; 3] {
+    let mut own = [[0.0; 4]; INLINE + 1];
     let mut many;
-    let own: &mut [Mass<3>] = if n <= INLINE + 1 {
+    let own: &mut [Four] = if n <= INLINE + 1 {
         &mut own[..n]
     } else {
-        many = vec![Mass::<3>::ZERO; n];
+        many = vec![[0.0; 4]; n];
         &mut many
     };
     own.iter_mut().zip(coefficients).for_each(|(own, c)| *own = c);
     let degree = n - 1;
     for level in 1..degree.max(2) - 1 {
         for i in 0..n - level {
-            own[i] = own[i].between(t, own[i + 1]);
+            own[i] = between(own[i], t, own[i + 1]);
         }
     }
     match (degree, &*own) {
-        (0, [a, ..]) => [*a, Mass::ZERO, Mass::ZERO],
-        (1, [a, b, ..]) => [a.between(t, *b), b.minus(*a), Mass::ZERO],
+        (0, [a, ..]) => [*a, [0.0; 4], [0.0; 4]],
+        (1, [a, b, ..]) => [between(*a, t, *b), step(*a, *b, 1.0), [0.0; 4]],
         (_, [a, b, c, ..]) => {
-            let (left, right) = (a.between(t, *b), b.between(t, *c));
-            let second = c.minus(*b).minus(b.minus(*a)).times((degree * (degree - 1)) as f64);
-            [left.between(t, right), right.minus(left).times(degree as f64), second]
+            let (left, right) = (between(*a, t, *b), between(*b, t, *c));
+            let second = step(step(*a, *b, 1.0), step(*b, *c, 1.0), (degree * (degree - 1)) as f64);
+            [between(left, t, right), step(left, right, degree as f64), second]
         }
-        _ => [Mass::ZERO; 3],
+        _ => [[0.0; 4]; 3],
     }
+}
+
+#[inline]
+fn between(a: Four, t: f64, b: Four) -> Four {
+    let s = 1.0 - t;
+    [s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2] + t * b[2], s * a[3] + t * b[3]]
+}
+
+/// `factor·(b − a)`.
+#[inline]
+fn step(a: Four, b: Four, factor: f64) -> Four {
+    [factor * (b[0] - a[0]), factor * (b[1] - a[1]), factor * (b[2] - a[2]), factor * (b[3] - a[3])]
 }
 
 /// Whether all numbers have one sign and are beyond the rounding.

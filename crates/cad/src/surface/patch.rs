@@ -4,13 +4,13 @@
 //! Bernstein form. A part of the piece is done away with in one of four ways. No coefficient of `Y·Y − r²·w²` is below 0: it is nowhere
 //! nearer than `r`. All coefficients of one `D`, or of a combination of both, have one sign: the distance stands still nowhere within. The
 //! derivatives of both `D`, times the inverse of those in the middle, differ from the unit matrix by less than 1: `D` takes every value
-//! once at most, and a descent finds the only place. Else it is halved. Near to the piece none of this is needed: there the distance is
-//! convex ([`super::convex`]).
+//! once at most, and a descent finds the only place. Else it is halved. Mostly none of this is needed: bounds of the derivatives say
+//! that there is one foot, or none ([`super::convex`]).
 
 use super::bends::Bends;
-use super::convex::Convexity;
+use super::convex::{Convexity, Minima};
 use super::net::{Net, one_sign};
-use trueness_geom::space::{Aabb, Point, Vector, dot, minus, norm, times, unit};
+use trueness_geom::space::{Aabb, Point, Vector, dot, minus, norm, unit};
 use trueness_geom::spline::surface::Jet;
 use trueness_geom::spline::value::{Mass, Value};
 
@@ -20,6 +20,9 @@ const NOISE: f64 = 256.0 * f64::EPSILON;
 const DEPTH: u32 = 90;
 /// Parts looked at for one point at most.
 const MAX_PARTS_SEARCHED: usize = 20_000;
+/// Parts of a piece that bounds of its derivatives are asked of at most, and that are open at a time.
+const MAX_PARTS_BY_BOUNDS: usize = 48;
+const MAX_OPEN_PARTS: usize = 16;
 /// A piece is halved until the distance is convex over it for points of so many times its size.
 const CONVEX_SIZES: f64 = 1.0;
 /// How far the derivatives may differ from those in the middle of a part that has one foot at most; below 1.
@@ -72,8 +75,7 @@ impl Patch {
         let mut done: Vec<Patch> = vec![];
         while let Some((mut piece, bends, sides, depth)) = open.pop() {
             let jet = piece.jet([0.5; 2]);
-            let middle = [0, 1].map(|k| times(1.0 / sides[k], jet.first[k]));
-            let convexity = Convexity::new(&bends, middle, sides);
+            let convexity = Convexity::new(&bends, sides, &jet, &piece.bounds);
             if depth == 0 || convexity.holds(CONVEX_SIZES * piece.bounds.diagonal()) {
                 piece.convexity = Some(convexity);
                 done.push(piece);
@@ -110,10 +112,7 @@ impl Patch {
         if self.is_beyond(p, limit) {
             return;
         }
-        // A foot nearer than the limit is no farther from the point than that, and the rest of the piece by its size.
-        let reach = farthest(&self.bounds, &p).min(limit + self.bounds.diagonal());
-        if self.convexity.as_ref().is_some_and(|c| c.holds(reach)) {
-            visit([0.5; 2], [[0.0, 1.0]; 2]);
+        if self.is_done_by_bounds(p, &mut limit, &mut visit) {
             return;
         }
         let about = self.net.map(|m| Mass { moment: m.moment.plus(-m.mass, p), mass: m.mass });
@@ -157,6 +156,54 @@ impl Patch {
         }
     }
 
+    /// Halves it as long as bounds of its derivatives leave open what is within; whether they do not in the end.
+    fn is_done_by_bounds(
+        &self,
+        p: Point,
+        limit: &mut f64,
+        visit: &mut impl FnMut([f64; 2], [[f64; 2]; 2]) -> f64,
+    ) -> bool {
+        let Some(whole) = &self.convexity else { return false };
+        match whole.minima(&p, &self.bounds, *limit) {
+            Minima::None => return true,
+            Minima::One => {
+                *limit = visit([0.5; 2], [[0.0, 1.0]; 2]);
+                return true;
+            }
+            Minima::Unknown => {}
+        }
+        let mut open = [[[0.0, 1.0]; 2]; MAX_OPEN_PARTS];
+        let mut count = 1;
+        for _ in 0..MAX_PARTS_BY_BOUNDS {
+            if count == 0 {
+                return true;
+            }
+            count -= 1;
+            let range = open[count];
+            let middle = range.map(|[a, b]| 0.5 * (a + b));
+            let jet = self.jet(middle);
+            let (part, bounds) = whole.part(range, &jet, &self.bounds);
+            match part.minima(&p, &bounds, *limit) {
+                Minima::None => {}
+                Minima::One => *limit = visit(middle, range),
+                Minima::Unknown if count + 2 > MAX_OPEN_PARTS => return false,
+                Minima::Unknown => {
+                    let extent = |k: usize| norm(jet.first[k]) * (range[k][1] - range[k][0]);
+                    let k = usize::from(extent(1) > extent(0));
+                    let mut halves = [range; 2];
+                    (halves[0][k][1], halves[1][k][0]) = (middle[k], middle[k]);
+                    // The one that is nearer about lies last: what it holds does away with the other one.
+                    if dot(minus(jet.place, p), jet.first[k]) > 0.0 {
+                        halves.reverse();
+                    }
+                    open[count..count + 2].copy_from_slice(&halves);
+                    count += 2;
+                }
+            }
+        }
+        count == 0
+    }
+
     /// Whether all control points lie beyond a plane at this distance across the way to their middle.
     fn is_beyond(&self, p: Point, limit: f64) -> bool {
         let middle = [0, 1, 2].map(|k| 0.5 * (self.bounds.min[k] + self.bounds.max[k]));
@@ -188,11 +235,6 @@ impl Patch {
         ];
         Jet { place, first: [su, sv], second }
     }
-}
-
-/// Distance of the farthest corner of a box.
-fn farthest(bounds: &Aabb, p: &Point) -> f64 {
-    norm([0, 1, 2].map(|k| (p[k] - bounds.min[k]).abs().max((bounds.max[k] - p[k]).abs())))
 }
 
 impl Part {

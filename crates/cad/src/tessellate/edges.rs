@@ -12,10 +12,12 @@ pub struct Polyline {
     pub shares: Vec<f64>,
     /// The vertex of the mesh at each.
     pub vertices: Vec<u32>,
+    /// How far the edge may be from its chords, millimeters.
+    pub off: f64,
 }
 
 /// Of the tolerance, what edges take: facets between two edges whose places do not face each other are larger than their sides.
-pub const EDGE_SHARE: f64 = 0.4;
+const EDGE_SHARE: f64 = 0.4;
 /// The angle between neighboring sides of a polyline at most, whatever is asked for: a circle has seven.
 const MAX_ANGLE: f64 = 0.9;
 /// Shares of an edge nearer than this are one.
@@ -105,7 +107,7 @@ pub fn numbered(brep: &Brep, shares: Vec<Vec<f64>>) -> (Vec<Polyline>, Vec<Point
             }
             vertices.push(vertex);
         }
-        polylines.push(Polyline { shares, vertices });
+        polylines.push(Polyline { off: edge.span.chords_off(&shares), shares, vertices });
     }
     (polylines, positions)
 }
@@ -130,5 +132,9 @@ pub fn insert<'a>(
     }
     touched.sort_unstable();
     touched.dedup();
+    for edge in &touched {
+        let own = &mut polylines[*edge as usize];
+        own.off = brep.edges[*edge as usize].span.chords_off(&own.shares);
+    }
     touched
 }

@@ -1,13 +1,15 @@
 //! Facets of one face.
 
 use super::bend::{Bend, Bound};
-use super::edges::{EDGE_SHARE, Polyline};
+use super::edges::Polyline;
 use super::lines::{Fineness, lines, nodes};
 use super::polygon::{Between, Corner, Polygons, Source, polygons};
+use crate::stop::go_on;
 use crate::trim::{Piece, Straight, Trim};
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, PositionInTriangulation, Triangulation};
 use std::collections::BTreeMap;
+use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Point, norm};
 
 /// Facets of a face, with corners among its own vertices.
@@ -30,6 +32,8 @@ pub enum Outcome {
 
 type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
+/// Of the square of the tolerance, what heights over the surface may take at least, however coarse the edges are.
+const HEIGHTS_AT_LEAST: f64 = 0.25;
 /// Rounds in which facets that are too far from the surface are cut.
 const MAX_ROUNDS: usize = 10;
 /// Doublings of the lines of a face whose cuts need more places.
@@ -56,44 +60,47 @@ struct Work<'a> {
 /// Facets of a face within a fineness; at most `most`.
 pub fn facets(
     trim: &Trim,
-    polylines: &[Polyline],
-    positions: &[Point],
+    (polylines, positions): (&[Polyline], &[Point]),
     fineness: Fineness,
     most: usize,
-) -> Outcome {
+    progress: &dyn Progress,
+) -> Result<Outcome, Cancelled> {
     let has_side = |piece: &Piece| matches!(piece, Piece::Straight { kind: Straight::Side, .. });
     let is_bare = trim.rings.iter().flat_map(|r| &r.pieces).any(has_side);
-    let bend = Bend::new(&trim.chart, if is_bare { f64::INFINITY } else { EDGE_SHARE * fineness.distance });
+    let border = trim.edges.iter().map(|e| polylines[*e as usize].off).fold(0.0, f64::max);
+    let bend = Bend::new(&trim.chart, if is_bare { f64::INFINITY } else { border });
+    // Beyond an edge the height over the surface and the way back to the edge are at right angles.
+    let heights = HEIGHTS_AT_LEAST.max(1.0 - (border / fineness.distance).powi(2)).sqrt() * fineness.distance;
     let mut finer = 1;
     for doubling in 0..=MAX_DOUBLINGS {
         let lines = lines(trim, &bend, fineness, finer);
         let cells = (lines[0].len() - 1).saturating_mul(lines[1].len() - 1).saturating_mul(2);
         if cells > most {
-            return Outcome::TooMany(cells);
+            return Ok(Outcome::TooMany(cells));
         }
         let polygons = polygons(trim, polylines, &lines);
         let mut work = Work::new(trim, &bend, &lines, positions, polygons.vertices.clone(), &polygons.poles);
         if let Err(wanted) = work.constrain(&polygons) {
-            return match wanted.is_empty() {
+            return Ok(match wanted.is_empty() {
                 true => Outcome::Failed("its border crosses itself in the parameters of its surface"),
                 false => Outcome::Finer(wanted, None),
-            };
+            });
         }
-        if !work.add_nodes(nodes(trim, &lines)) {
-            return Outcome::Failed("its border bounds no area in the parameters of its surface");
+        if !work.add_nodes(nodes(trim, &lines), progress)? {
+            return Ok(Outcome::Failed("its border bounds no area in the parameters of its surface"));
         }
-        let (wanted, cut_is_coarse) = work.refine(fineness.distance + 2.0 * trim.gap, most);
+        let (wanted, cut_is_coarse) = work.refine(heights + 2.0 * trim.gap, most, progress)?;
         if cut_is_coarse && doubling < MAX_DOUBLINGS {
             finer *= 2;
             continue;
         }
-        let done = work.finish();
-        return match wanted.is_empty() {
+        let done = work.finish(border);
+        return Ok(match wanted.is_empty() {
             true => Outcome::Done(done),
             false => Outcome::Finer(wanted, Some(done)),
-        };
+        });
     }
-    Outcome::Failed("its parameters cannot be divided finely enough")
+    Ok(Outcome::Failed("its parameters cannot be divided finely enough"))
 }
 
 impl<'a> Work<'a> {
@@ -236,10 +243,10 @@ impl<'a> Work<'a> {
     }
 
     /// Adds places of the grid that lie within, not close to the border. Whether there is anything within.
-    fn add_nodes(&mut self, nodes: Vec<[f64; 2]>) -> bool {
+    fn add_nodes(&mut self, nodes: Vec<[f64; 2]>, progress: &dyn Progress) -> Result<bool, Cancelled> {
         let inside = self.inside();
         if !inside.contains(&true) {
-            return false;
+            return Ok(false);
         }
         let is_clear = |face: spade::handles::FixedFaceHandle<spade::handles::InnerTag>, p: Point2<f64>| {
             let face = self.cdt.face(face);
@@ -263,11 +270,21 @@ impl<'a> Work<'a> {
                 _ => false,
             }
         };
-        let kept: Vec<[f64; 2]> = nodes.into_iter().filter(is_apart).collect();
-        for at in kept {
-            self.add_own(at);
+        let mut kept: Vec<[f64; 2]> = vec![];
+        for part in nodes.chunks(BETWEEN_QUESTIONS) {
+            go_on(progress)?;
+            kept.extend(part.iter().filter(|at| is_apart(at)));
         }
-        true
+        self.add_all(kept, progress)?;
+        Ok(true)
+    }
+
+    fn add_all(&mut self, places: Vec<[f64; 2]>, progress: &dyn Progress) -> Result<(), Cancelled> {
+        for part in places.chunks(BETWEEN_QUESTIONS) {
+            go_on(progress)?;
+            part.iter().for_each(|at| self.add_own(*at));
+        }
+        Ok(())
     }
 
     fn add_own(&mut self, at: [f64; 2]) {
@@ -318,11 +335,19 @@ impl<'a> Work<'a> {
     }
 
     /// Cuts facets that are too far from the surface. The shares at which edges need places, and whether a cut needs more.
-    fn refine(&mut self, distance: f64, most: usize) -> (Vec<(u32, f64)>, bool) {
+    fn refine(
+        &mut self,
+        distance: f64,
+        most: usize,
+        progress: &dyn Progress,
+    ) -> Result<(Vec<(u32, f64)>, bool), Cancelled> {
         for round in 0..MAX_ROUNDS {
             let (mut wanted, mut middles, mut cut_is_coarse) = (vec![], BTreeMap::new(), false);
             let all = self.all();
-            for (corners, parameters) in &all {
+            for (n, (corners, parameters)) in all.iter().enumerate() {
+                if n % BETWEEN_QUESTIONS == 0 {
+                    go_on(progress)?;
+                }
                 let places = corners.map(|c| self.place(self.corners[c].1));
                 if self.bend.facet(places, *parameters).distance <= distance {
                     continue;
@@ -342,14 +367,14 @@ impl<'a> Work<'a> {
             }
             let is_last = round + 1 == MAX_ROUNDS || all.len() + 2 * middles.len() > most;
             if middles.is_empty() || cut_is_coarse || is_last {
-                return (wanted, cut_is_coarse);
+                return Ok((wanted, cut_is_coarse));
             }
-            middles.into_values().for_each(|at| self.add_own(at));
+            self.add_all(middles.into_values().collect(), progress)?;
         }
-        (vec![], false)
+        Ok((vec![], false))
     }
 
-    fn finish(self) -> FaceFacets {
+    fn finish(self, border: f64) -> FaceFacets {
         let all = self.all();
         let mut bound = Bound { distance: 0.0, is_proven: true };
         let (mut facets, mut parameters) = (vec![], vec![]);
@@ -364,10 +389,13 @@ impl<'a> Work<'a> {
             parameters.push(order.map(|i| own[i]));
         }
         // Corners on edges are as far from the surface as the edges.
-        bound.distance += self.trim.gap;
+        bound.distance = libm::hypot(bound.distance, border) + self.trim.gap;
         FaceFacets { vertices: self.vertices, facets, parameters, bound }
     }
 }
+
+/// Places or facets between two questions whether to go on: some milliseconds.
+const BETWEEN_QUESTIONS: usize = 512;
 
 /// Shares of an edge nearer than this are not parted.
 const LEAST_SHARE: f64 = 1e-6;

@@ -36,7 +36,7 @@ pub struct Tessellation {
     /// Parameters of the corners of each facet, on the surface of its face; at a pole the one that may be any number lies between those of
     /// the other corners.
     pub parameters: Vec<[[f64; 2]; 3]>,
-    /// For each face how far its facets are from the surface at most, the gap of its edges included; `None` where it has none.
+    /// For each face how far its facets are from it at most, and it from them, the gap of its edges included; `None` where it has none.
     pub bounds: Vec<Option<Bound>>,
     /// For each edge its places; empty for edges that bound no face.
     pub edges: Vec<Polyline>,
@@ -98,7 +98,8 @@ impl Tessellation {
                     if progress.cancelled() {
                         return Err(Cancelled);
                     }
-                    let outcome = trims[*f].map(|t| facets(t, &polylines, &positions, fineness, most));
+                    let own = |t| facets(t, (&polylines, &positions), fineness, most, progress);
+                    let outcome = trims[*f].map(own).transpose()?;
                     if round == 0 {
                         progress.advance(1);
                     }

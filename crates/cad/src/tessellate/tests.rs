@@ -293,3 +293,46 @@ fn long_cylinders_as_splines_have_few_facets() {
         assert!(facets.mesh.faces.len() < 300, "{length}: {}", facets.mesh.faces.len());
     }
 }
+
+/// Says stop at the question of that number, and counts the questions.
+struct StopsAt {
+    asked: std::sync::atomic::AtomicUsize,
+    last: usize,
+}
+
+impl StopsAt {
+    fn new(last: usize) -> StopsAt {
+        StopsAt { asked: 0.into(), last }
+    }
+    fn asked(&self) -> usize {
+        self.asked.load(std::sync::atomic::Ordering::Relaxed)
+    }
+}
+
+impl Progress for StopsAt {
+    fn cancelled(&self) -> bool {
+        self.asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1 >= self.last
+    }
+}
+
+/// Each thread asks once more at most; between two questions lie some hundred facets, or a face that is taken apart.
+#[test]
+fn long_threads_stop_when_they_are_asked_to() {
+    let made = ribbon(6);
+    let trim = Trim::new(&made.brep, &made.brep.faces[0], 0.0).unwrap();
+    let fineness = Fineness { distance: 1e-3, angle: 0.6 };
+    let tessellate = |progress: &StopsAt| {
+        Tessellation::new(&made.brep, &[Some(&trim)], fineness, 10_000_000, progress)
+            .map(|t| t.mesh.faces.len())
+    };
+    let all = StopsAt::new(usize::MAX);
+    let facets = tessellate(&all).unwrap();
+    assert!(facets < 1024 * all.asked(), "{facets} facets, {} questions", all.asked());
+    let some = StopsAt::new(all.asked() / 2);
+    assert!(matches!(tessellate(&some), Err(TessellateError::Cancelled(_))));
+    assert!(some.asked() <= all.asked() / 2 + 2, "{}", some.asked());
+    let prepare =
+        |progress: &StopsAt| crate::search::Search::watched(&made.brep, vec![Some(trim.clone())], progress);
+    assert!(prepare(&StopsAt::new(1)).is_err() && prepare(&StopsAt::new(3)).is_err());
+    assert!(prepare(&StopsAt::new(usize::MAX)).is_ok());
+}

@@ -27,7 +27,7 @@ pub use strand::{Sample, Strand, crossing};
 use crate::brep::{Bounds, Brep, EdgeUse, Face, Loop};
 use crate::curve::Span;
 use chart::SAME_PARAMETER;
-use outline::Outline;
+use outline::{Outline, PieceId};
 use trueness_geom::space::{Aabb, Point};
 
 /// The part of a surface that a face is.
@@ -129,7 +129,7 @@ impl Trim {
 
     fn of_rings(parts: Parts, reach: f64) -> Result<Trim, TrimError> {
         let Parts { chart, reversed, turned, rings, cuts, gap, edges, spans } = parts;
-        let outline = Outline::new(&rings);
+        let outline = Outline::new(&rings, |piece, share| parameters(&rings, &chart, &spans, piece, share));
         if outline.area().is_nan() || outline.area() <= 0.0 || !outline.nests() {
             return Err(TrimError::Contradiction);
         }
@@ -150,10 +150,16 @@ impl Trim {
             (Some(period), Some(cut)) => at[k] - period * ((at[k] - cut) / period).floor(),
             _ => at[k],
         });
-        self.outline.contains(home, |piece, share| match &self.rings[piece.0].pieces[piece.1] {
-            Piece::Edge(strand) => strand.at(&self.chart, &self.spans[strand.slot], share),
-            Piece::Straight { ends: [from, _], .. } => *from,
-        })
+        let at = |piece, share| parameters(&self.rings, &self.chart, &self.spans, piece, share);
+        self.outline.contains(home, at)
+    }
+}
+
+/// The parameters of a piece at a share of its edge.
+fn parameters(rings: &[Ring], chart: &Chart, spans: &[Span], (ring, piece): PieceId, share: f64) -> [f64; 2] {
+    match &rings[ring].pieces[piece] {
+        Piece::Edge(strand) => strand.at(chart, &spans[strand.slot], share),
+        Piece::Straight { ends: [from, _], .. } => *from,
     }
 }
 

@@ -12,6 +12,8 @@ pub type PieceId = (usize, usize);
 struct Segment {
     ends: [[f64; 2]; 2],
     band: [f64; 2],
+    /// Distance of the border from the straight line through the ends at most.
+    width: f64,
     piece: PieceId,
     /// Shares of the edge at its ends; of a straight piece none.
     shares: Option<[f64; 2]>,
@@ -31,6 +33,12 @@ pub struct Outline {
 const MAX_HALVINGS: u32 = 45;
 /// The band of half a side: a quarter, and something for what is not parabolic.
 const BAND_OF_HALF: f64 = 0.35;
+/// Shares of a side at which its distance from the straight line is taken: where the border turns the other way, the middle says nothing.
+const WIDTH_SHARES: [f64; 3] = [0.25, 0.5, 0.75];
+/// The greatest distance as a multiple of those, so that it holds for the halves of a cubic piece by `WIDTH_OF_HALF` too.
+const WIDTH_OF_DISTANCES: f64 = 2.25;
+/// The width of half a side: of a parabola it is a quarter, of a cubic piece that turns about its middle as much as the whole.
+const WIDTH_OF_HALF: f64 = 0.5;
 /// Rounding of parameters, as a share of the window.
 const ROUNDED: f64 = 16.0 * f64::EPSILON;
 
@@ -41,7 +49,8 @@ enum Turn {
 }
 
 impl Outline {
-    pub fn new(rings: &[Ring]) -> Outline {
+    /// Of these rings; `at` gives the parameters of a piece at a share of its edge.
+    pub fn new(rings: &[Ring], at: impl Fn(PieceId, f64) -> [f64; 2]) -> Outline {
         let mut segments = vec![];
         for (i, ring) in rings.iter().enumerate() {
             for (j, piece) in ring.pieces.iter().enumerate() {
@@ -51,7 +60,12 @@ impl Outline {
                         Piece::Edge(s) => Some([s.samples[n].share, s.samples[n + 1].share]),
                         Piece::Straight { .. } => None,
                     };
-                    segments.push(Segment { ends: [w[0].0, w[1].0], band: w[0].1, piece: (i, j), shares });
+                    let (ends, piece) = ([w[0].0, w[1].0], (i, j));
+                    let width = shares.map_or(0.0, |[from, to]| {
+                        let off = |s: &f64| distance(ends, at(piece, from + s * (to - from)));
+                        WIDTH_OF_DISTANCES * WIDTH_SHARES.iter().map(off).fold(0.0, f64::max)
+                    });
+                    segments.push(Segment { ends, band: w[0].1, width, piece, shares });
                 }
             }
         }
@@ -183,6 +197,14 @@ impl Outline {
     }
 }
 
+/// Distance of a place from the straight line through two others.
+fn distance([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> f64 {
+    let way = [b[0] - a[0], b[1] - a[1]];
+    let side = way[0] * (p[1] - a[1]) - way[1] * (p[0] - a[0]);
+    let length = libm::hypot(way[0], way[1]);
+    if length > 0.0 { side.abs() / length } else { libm::hypot(p[0] - a[0], p[1] - a[1]) }
+}
+
 impl Segment {
     /// Lowest and highest value of a parameter.
     fn range(&self, k: usize) -> [f64; 2] {
@@ -201,6 +223,7 @@ impl Segment {
             match self.shares {
                 None if self.is_at(p) => return Turn::OnBorder,
                 None => {}
+                Some(_) if !self.is_near(p) => {}
                 Some(_) if halvings == 0 => return Turn::OnBorder,
                 Some([from, to]) => {
                     let middle = 0.5 * (from + to);
@@ -209,7 +232,8 @@ impl Segment {
                     let halves = [([a, m], [from, middle]), ([m, b], [middle, to])];
                     let mut sum = 0;
                     for (ends, shares) in halves {
-                        let half = Segment { ends, band, piece: self.piece, shares: Some(shares) };
+                        let width = WIDTH_OF_HALF * self.width;
+                        let half = Segment { ends, band, width, piece: self.piece, shares: Some(shares) };
                         match half.turn(p, at, halvings - 1) {
                             Turn::Apart(turn) => sum += turn,
                             Turn::OnBorder => return Turn::OnBorder,
@@ -240,6 +264,17 @@ impl Segment {
         let off = [p[0] - a[0], p[1] - a[1]];
         let side = way[0] * off[1] - way[1] * off[0];
         side.abs() <= way[0].abs() * self.band[1] + way[1].abs() * self.band[0]
+    }
+
+    /// Whether the border may pass by a place on either side. From outside of a convex part of the plane it winds as the straight line does.
+    fn is_near(&self, p: [f64; 2]) -> bool {
+        let [a, b] = self.ends;
+        let way = [b[0] - a[0], b[1] - a[1]];
+        let rounded = [0, 1].map(|k| ROUNDED * a[k].abs().max(b[k].abs()));
+        let side = way[0] * (p[1] - a[1]) - way[1] * (p[0] - a[0]);
+        let most =
+            libm::hypot(way[0], way[1]) * self.width + way[0].abs() * rounded[1] + way[1].abs() * rounded[0];
+        side.abs() <= most || side.is_nan()
     }
 
     fn crosses(&self, other: &Segment) -> bool {

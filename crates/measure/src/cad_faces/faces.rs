@@ -9,7 +9,9 @@ use trueness_cad::search::Search;
 use trueness_cad::trim::Trim;
 use trueness_cad::trimmed::Trimmed;
 use trueness_document::face::FaceRecord;
+use trueness_geom::deviation::surface::OnlyCancels;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::{Cancelled, Progress};
 
 /// Faces of a CAD model, ready to be measured against. The mesh that draws them goes beside it.
 pub struct CadFaces {
@@ -33,20 +35,25 @@ pub struct CadFaces {
 
 impl CadFaces {
     /// Of a model where its parts stand. `of_facet` is the face of each facet of `mesh`, which draws them within `drawn_within` mm.
+    ///
+    /// # Errors
+    /// [`Cancelled`].
     pub fn new(
         model: &Model,
         shape: Trimmed,
         (mesh, of_facet): (&Mesh, Vec<u32>),
         drawn_within: f64,
-    ) -> CadFaces {
+        progress: &dyn Progress,
+    ) -> Result<CadFaces, Cancelled> {
         let Trimmed { brep, trims } = shape;
         let faces =
             brep.faces.iter().zip(&trims).map(|(face, trim)| CadFace::new(face, trim.as_ref())).collect();
         let neighbors = neighbors(&brep);
         let drawn = DrawnFaces::new(&brep, mesh, of_facet);
-        let search = Search::new(&brep, trims.into_iter().map(Result::ok).collect());
+        let trims = trims.into_iter().map(Result::ok).collect();
+        let search = Search::watched(&brep, trims, &OnlyCancels(progress))?;
         let unread = model.unread.iter().filter(|u| u.holds_faces);
-        CadFaces {
+        Ok(CadFaces {
             search,
             faces,
             drawn,
@@ -55,7 +62,7 @@ impl CadFaces {
             unread: unread.map(|u| (u.entity, u.reason.clone())).collect(),
             instances: instance_names(model),
             neighbors,
-        }
+        })
     }
 
     /// What documents say of a face. Its instance is told where there are several.

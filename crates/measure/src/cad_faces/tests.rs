@@ -33,7 +33,8 @@ fn faces(faces: Vec<Face>, instances: Vec<Instance>) -> CadFaces {
         holds_faces: true,
     };
     let model = Model { parts: vec![part], instances, unread: vec![unread], ..Model::default() };
-    CadFaces::new(&model, Trimmed::of(&model, &Silent).unwrap(), (&Mesh::default(), vec![]), 0.0)
+    CadFaces::new(&model, Trimmed::of(&model, &Silent).unwrap(), (&Mesh::default(), vec![]), 0.0, &Silent)
+        .unwrap()
 }
 
 fn frame() -> Frame {

@@ -155,7 +155,7 @@ pub fn faces(
     let (shape, drawn) = tessellated(path, file, chord, record, progress)?;
     let drawn_within = record.cad.as_ref().map_or(0.0, |cad| cad.facets_within);
     let of_facet = drawn.regions.map_or(vec![], |regions| regions.of_facet);
-    let faces = CadFaces::new(&file.model, shape, (&drawn.mesh, of_facet), drawn_within);
+    let faces = CadFaces::new(&file.model, shape, (&drawn.mesh, of_facet), drawn_within, progress)?;
     Ok((faces, drawn.mesh))
 }
 

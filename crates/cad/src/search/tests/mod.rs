@@ -7,6 +7,7 @@ use trueness_geom::num::random::Random;
 use trueness_geom::progress::Silent;
 use trueness_geom::space::plus;
 
+mod family;
 mod profile;
 mod solids;
 mod splines;
@@ -21,7 +22,7 @@ fn frame(random: &mut Random) -> Frame {
 
 /// The nearest place by trying everything.
 fn brute<R: Region>(search: &Search<R>, p: &Point) -> Nearest {
-    let mut best = Best::none(search.0.touching);
+    let mut best = Best::none(search.0.rivals_within);
     for (number, face) in search.0.faces.iter().enumerate() {
         let (Some(region), shell) = (&face.region, face.shell) else { continue };
         let on = On::Face(number as u32);
