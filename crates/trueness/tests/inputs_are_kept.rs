@@ -53,3 +53,19 @@ fn an_output_that_is_an_input_is_refused_before_any_work() {
     assert_eq!((kept, std::fs::read_to_string(&plan).unwrap().as_str()), ([true; 2], text));
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+/// A variable of a script that was never set gives an empty name.
+#[test]
+fn an_empty_name_is_told_as_such() {
+    let scan = "../../corpus/bunny/zipper_res4.ply";
+    for (asked, said) in [
+        (json!({"measured": "", "references": [""]}), "the name of an input is empty; name a file"),
+        (
+            json!({"measured": scan, "references": [scan], "out": ""}),
+            "--out: the name of the file is empty; name a file",
+        ),
+    ] {
+        let (_, kind, text) = refused::<CompareRequest>(asked);
+        assert_eq!((kind, text.as_str()), (ErrorKind::Usage, said));
+    }
+}
