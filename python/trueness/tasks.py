@@ -141,7 +141,7 @@ def check(
     Parameters
     ----------
     mesh : Source
-        The mesh: STL, PLY, OBJ, OFF; or a CAD model: STEP.
+        The mesh or the CAD model.
     units : str | None
         Unit of a file that does not say its own: `mm`, `cm`, `m`, `in`, `um`; without it `mm`.
     format : str | None
@@ -660,6 +660,7 @@ def plan_init(
     *,
     units: str | None = None,
     format: str | None = None,
+    general: str | None = None,
     out: Path | None = None,
     seed: int = 0,
     progress: Progress = None,
@@ -675,6 +676,8 @@ def plan_init(
         Unit of a file that does not say its own: `mm`, `cm`, `m`, `in`, `um`; without it `mm`.
     format : str | None
         Format of the file; without it told by its content, then by its ending.
+    general : str | None
+        General tolerances for what a CAD model states none for, as `ISO2768-mK`.
     out : Path | None
         Where to write the plan: a new file.
     seed : int
@@ -692,6 +695,7 @@ def plan_init(
         "nominal": nominal,
         "units": units,
         "format": format,
+        "general": general,
         "out": out,
         "seed": seed,
     }
@@ -723,7 +727,7 @@ def repair(
     Parameters
     ----------
     mesh : Source
-        The mesh: STL, PLY, OBJ, OFF.
+        The mesh.
     units : str | None
         Unit of a file that does not say its own: `mm`, `cm`, `m`, `in`, `um`; without it `mm`.
     format : str | None

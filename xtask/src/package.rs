@@ -22,7 +22,16 @@ pub fn run(root: &Path) -> bool {
         return false;
     }
     let mut build = Command::new(&python);
-    build.args(["-m", "maturin", "build", crate::IN_ONE_PIECE, "--profile", "dev", "--locked", "--manifest-path"]);
+    build.args([
+        "-m",
+        "maturin",
+        "build",
+        crate::IN_ONE_PIECE,
+        "--profile",
+        "dev",
+        "--locked",
+        "--manifest-path",
+    ]);
     build.arg("python/Cargo.toml").arg("--out").arg(&wheels).arg("--interpreter").arg(&python);
     if !done(root, &mut build) {
         return false;

@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use trueness::document::Verdict;
 use trueness::document::inspect::InspectDocument;
 use trueness::files::MemorySources;
 use trueness::geom::progress::Silent;

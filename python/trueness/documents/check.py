@@ -15,11 +15,12 @@ from ._common import (
 class Tolerances(Record):
     """From where on something counts."""
     gap: float
-    """Distance, mm, up to which two places may have been meant as one."""
-    sliver_angle: float
-    """Facets with a smaller angle, radians, are slivers."""
-    island_share: float
-    """Shells with a smaller share of the whole diagonal are islands."""
+    """Distance, mm, up to which two places may have been meant as one; of a CAD model, up to which edges may
+    be off."""
+    sliver_angle: float | None
+    """Facets with a smaller angle, radians, are slivers. Absent for a CAD model."""
+    island_share: float | None
+    """Shells with a smaller share of the whole diagonal are islands. Absent for a CAD model."""
 
 
 class CheckDocument(TaskDocument):
@@ -65,6 +66,9 @@ class CheckDocument(TaskDocument):
     """Handles of all shells together; `null` unless the mesh is a closed, consistently oriented surface."""
     genus_reason: str | None
     """Why there is no genus."""
+    of_drawing: list[str] | None
+    """Of a CAD model, the keys whose numbers are those of the facets that draw it, within
+    `inputs[].cad.facets_within`. All other numbers are those of its faces and edges. Absent for a mesh."""
     sound: bool
     """No defect of severity `error`."""
     precondition: bool

@@ -152,7 +152,8 @@ class RepairDocument(TaskDocument):
     output: OutputRecord
     """The file written."""
     sound: bool
-    """The mesh is sound now, still is when the file written is read again, and the part was not changed."""
+    """The mesh is sound now, still is when the file written is read again, the part was not changed, and all
+    faces of a CAD model were read."""
     before: State
     """Size and defects before."""
     after: State

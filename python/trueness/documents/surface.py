@@ -51,8 +51,9 @@ class BaseRecord(Record):
     folded_share: float
     """Share of the points where layers lie over one another as seen on the base (0 to 1)."""
     standing_share: float | None
-    """Share of the points whose surface stands on edge on the base, at 80° and more (0 to 1): of a tenth and
-    more the surface is not theirs."""
+    """Share of the points whose surface stands on edge on the base, at 80° and more (0 to 1)."""
+    on_edge: bool | None
+    """Whether so many of them do that the surface is not theirs."""
     stretch: list[float] | None
     """Of a mesh laid flat, factors by which lengths on its facets grew: 1 % of its area has less than the
     first, 1 % more than the second."""

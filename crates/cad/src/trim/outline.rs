@@ -41,6 +41,8 @@ const WIDTH_OF_DISTANCES: f64 = 2.25;
 const WIDTH_OF_HALF: f64 = 0.5;
 /// Rounding of parameters, as a share of the window.
 const ROUNDED: f64 = 16.0 * f64::EPSILON;
+/// Places of a ring that are asked whether they lie as it says: the cost grows with the places of all rings.
+const MAX_PLACES_OF_RING: usize = 64;
 
 /// Where a place is to a side.
 enum Turn {
@@ -135,7 +137,8 @@ impl Outline {
         };
         let wanted = i32::from(own.iter().map(cross).sum::<f64>() < 0.0);
         let (mut right, mut wrong) = (0, 0);
-        for place in own.iter().map(|s| [0, 1].map(|k| 0.5 * (s.ends[0][k] + s.ends[1][k]))) {
+        let tried = own.iter().step_by(own.len().div_ceil(MAX_PLACES_OF_RING));
+        for place in tried.map(|s| [0, 1].map(|k| 0.5 * (s.ends[0][k] + s.ends[1][k]))) {
             match self.winding_of_others(ring, place) == wanted {
                 true => right += 1,
                 false => wrong += 1,

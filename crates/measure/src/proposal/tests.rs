@@ -63,7 +63,7 @@ fn alone(faces: Vec<Face>, tolerances: Tolerances) -> Model {
 fn reference(model: &Model) -> Data {
     let shape = Trimmed::of(model, &Silent).unwrap();
     let drawn = shape.tessellate(FINENESS, 1 << 20, &Silent).unwrap();
-    let faces = CadFaces::new(model, shape, (&drawn.mesh, drawn.faces), FINENESS.distance);
+    let faces = CadFaces::new(model, shape, (&drawn.mesh, drawn.faces), FINENESS.distance, &Silent).unwrap();
     Data { reference: Some(drawn.mesh), faces: Some(Arc::new(faces)), ..Data::default() }
 }
 

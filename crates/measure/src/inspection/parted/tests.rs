@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::num::random::Random;
 use trueness_geom::progress::Silent;
-use trueness_geom::space::{Point, minus, norm, plus};
+use trueness_geom::space::{Point, plus};
 
 /// A bar along y: its top at z = 0 from x = −10 to 10, then a quarter of a circle of radius 2 in steps of 10°, or a wall.
 fn bar(fillet: bool) -> Mesh {
