@@ -149,7 +149,7 @@ const LONG_STEPS: &[Step] = &[
         variables: &[("TRUENESS_POINTS", "5000")],
         ..cargo(
             "many exact points",
-            &["test", IN_ONE_PIECE, "--workspace", "--locked", "--test", "exactness"],
+            &["test", IN_ONE_PIECE, "--workspace", "--locked", "--test", "all", "--", "exactness"],
         )
     }),
     Step::Command(cargo(

@@ -150,7 +150,7 @@ fn wrong_questions_are_refused() {
     said(&["compare", m, m], 3, "this command needs a mesh or points");
     let empty =
         folder.write("empty.step", "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n");
-    said(&["compare", p, word(&empty)], 3, "no B-spline surface");
+    said(&["compare", p, word(&empty)], 3, "the file holds no shape");
     let cut = folder.write("cut.step", &quarter()[..500]);
     said(&["compare", p, word(&cut)], 3, "line");
     let other = folder.write(

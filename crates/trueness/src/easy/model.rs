@@ -18,7 +18,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// Of the STEP or IGES file that goes by a name.
+    /// Of the CAD file that goes by a name.
     ///
     /// # Errors
     /// Those of reading; a file without a CAD model; cancelled.
