@@ -58,6 +58,9 @@ const fn cargo(name: &'static str, arguments: &'static [&'static str]) -> Call {
 /// Geometry in one piece for each crate.
 const IN_ONE_PIECE: &str = "--config=xtask/one-piece.toml";
 
+/// With all members, the examples and the options of the tests: nothing that the tests built is built again.
+const BUILD: [&str; 5] = ["build", IN_ONE_PIECE, "--workspace", "--locked", "--examples"];
+
 const STEPS: &[Step] = &[
     Step::Command(cargo("format", &["fmt", "--all", "--check"])),
     Step::Own("licences", dependencies::run),
@@ -101,10 +104,14 @@ const STEPS: &[Step] = &[
         arguments: &["ci", "--ignore-scripts", "--no-audit", "--no-fund", "--prefer-offline"],
         variables: &[],
     }),
-    Step::Command(cargo(
-        "viewer reports",
-        &["run", IN_ONE_PIECE, "--quiet", "--locked", "--example", "report_fixtures", "--", "target/reports"],
-    )),
+    // The tests built it.
+    Step::Command(Call {
+        name: "viewer reports",
+        folder: ".",
+        program: "target/debug/examples/report_fixtures",
+        arguments: &["target/reports"],
+        variables: &[],
+    }),
     Step::Command(Call {
         name: "viewer",
         folder: "crates/viewer/web",
@@ -118,6 +125,7 @@ const STEPS: &[Step] = &[
 const LONG_STEPS: &[Step] = &[
     Step::Own("advisories", dependencies::deny),
     Step::Own("oldest compiler", oldest::run),
+    Step::Own("Python wheel", package::wheel),
     Step::Command(cargo(
         "without the program",
         &["check", IN_ONE_PIECE, "--locked", "-p", "trueness", "--lib", "--no-default-features"],

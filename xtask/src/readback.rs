@@ -17,9 +17,7 @@ pub fn run(root: &Path) -> bool {
             Python::Ready(path) => path,
             Python::Missing(passes) => return passes,
         };
-    // With the examples and the tests' options: nothing that the tests built is built again.
-    let build = ["build", crate::IN_ONE_PIECE, "--locked", "--bins", "--examples"];
-    done(root, Command::new(env!("CARGO")).args(build))
+    done(root, Command::new(env!("CARGO")).args(crate::BUILD).arg("--bins"))
         && done(
             root,
             Command::new(packages)

@@ -35,7 +35,7 @@ struct Exact {
 }
 
 impl Reference {
-    /// Of a mesh in millimeters with vertices shared by index, as [`read`](part::read) leaves it.
+    /// Of a mesh in millimeters with vertices shared by index, as [`read`](super::part::read) leaves it.
     ///
     /// Distances are exact for any mesh; the sign method is the one that is valid for this one, see [`Reference::sign`].
     /// Cost: that of [`Tree::build`] and of the topology, `n log n`.
