@@ -1,5 +1,7 @@
 """Other packages: their objects, their names and their signs, beside the packages themselves where they are installed."""
 
+# What packages that are not installed have for types is unknown.
+# pyright: reportUnknownMemberType=false, reportUnknownVariableType=false, reportUnknownArgumentType=false
 from __future__ import annotations
 
 from typing import Any
