@@ -13,7 +13,7 @@ const NOISE: f64 = 64.0 * f64::EPSILON;
 /// Halvings at most; by then a part is as short as a rounding of its parameter.
 const DEPTH: u32 = 50;
 /// Coefficients of a polynomial that is evaluated without allocating, at most.
-const INLINE: usize = 24;
+const MAX_COEFFICIENTS_ON_STACK: usize = 24;
 /// Steps of bisection with Newton's at most.
 const ROOT_STEPS: usize = 100;
 
@@ -283,9 +283,9 @@ fn root(coefficients: &[f64]) -> f64 {
 /// A polynomial and its derivative.
 fn value(coefficients: &[f64], t: f64) -> [f64; 2] {
     let n = coefficients.len() - 1;
-    let mut inline = [0.0; INLINE];
+    let mut inline = [0.0; MAX_COEFFICIENTS_ON_STACK];
     let mut many;
-    let level: &mut [f64] = if n < INLINE {
+    let level: &mut [f64] = if n < MAX_COEFFICIENTS_ON_STACK {
         inline[..=n].copy_from_slice(coefficients);
         &mut inline[..=n]
     } else {

@@ -13,7 +13,7 @@ const MAX_BOXES_OF_PIECE: usize = 64;
 /// Places by which the length of a line on a face is judged.
 const LENGTH_PLACES: usize = 8;
 /// Share of a step by which boxes are widened beyond the gap between the face and its edges: what is rounded must not part them.
-const WIDENED: f64 = 0.1;
+const BOX_SLACK_STEPS: f64 = 0.1;
 
 /// Boxes around an edge, about as long as `step`.
 pub(super) fn pieces_of_edge(feet: &CurveFeet, step: f64) -> Vec<Aabb> {
@@ -46,7 +46,7 @@ pub(super) fn cover_of_face<R: Region>(
         if region.contains(middle) {
             return Some((bounds, feet.surface().at(middle[0], middle[1])));
         }
-        let wide = bounds.widened(WIDENED * step + region.gap());
+        let wide = bounds.widened(BOX_SLACK_STEPS * step + region.gap());
         borders.iter().any(|b| b.meets(&wide)).then_some((bounds, [f64::NAN; 3]))
     };
     let mut cover = vec![];

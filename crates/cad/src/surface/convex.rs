@@ -38,8 +38,8 @@ pub(super) enum Minima {
     Unknown,
 }
 
-/// Roundings of a scalar product as a share of its factors: it is the sum of some dozens of products.
-const NOISE: f64 = 256.0 * f64::EPSILON;
+/// Roundings of a scalar product, or of a coefficient, as a share of what is multiplied: it is the sum of some dozens of products.
+pub const PRODUCT_ROUNDING: f64 = 256.0 * f64::EPSILON;
 
 impl Convexity {
     /// Of a part within a box, with these extents as shares of the piece that `bends` are of; its derivatives in its middle by its own shares.
@@ -73,7 +73,7 @@ impl Convexity {
         let seconds = [0, 1, 2].map(scaled);
         let lengths = [0, 1, 2].map(|n| factors[n] * self.lengths[n]);
         let first = [times(s, middle.first[0]), times(t, middle.first[1])];
-        let bulge = 0.125 * (lengths[0] + 2.0 * lengths[1] + lengths[2]) + NOISE * self.scale;
+        let bulge = 0.125 * (lengths[0] + 2.0 * lengths[1] + lengths[2]) + PRODUCT_ROUNDING * self.scale;
         let half = [0, 1, 2].map(|k| 0.5 * (first[0][k].abs() + first[1][k].abs()) + bulge);
         let bounds = Aabb {
             min: [0, 1, 2].map(|k| (middle.place[k] - half[k]).max(whole.min[k])),
@@ -111,7 +111,7 @@ impl Convexity {
         let slopes = self.first.map(|d| dot(away, d));
         let across = greatest(uv);
         for (k, own) in [uu, vv].into_iter().enumerate() {
-            let rounding = NOISE * (reach + self.scale) * self.squares[k][1].sqrt();
+            let rounding = PRODUCT_ROUNDING * (reach + self.scale) * self.squares[k][1].sqrt();
             if slopes[k].abs() > 0.5 * (greatest(own) + across) + rounding {
                 return Minima::None;
             }
@@ -124,7 +124,7 @@ impl Convexity {
         let ratio = (a / c).sqrt();
         let square = reach * reach;
         let fall = fall(slopes[0], a - across * ratio) + fall(slopes[1], c - across / ratio);
-        let rounding = NOISE * (square + self.scale * reach);
+        let rounding = PRODUCT_ROUNDING * (square + self.scale * reach);
         if square - 2.0 * fall > limit * limit + rounding { Minima::None } else { Minima::One }
     }
 }

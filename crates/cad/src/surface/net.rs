@@ -183,7 +183,7 @@ impl Net<f64> {
 }
 
 /// Degree up to which a place is found without allocating.
-const INLINE: usize = 8;
+const MAX_DEGREE_ON_STACK: usize = 8;
 
 /// The moment and the mass.
 type Four = [f64; 4];
@@ -192,9 +192,9 @@ impl Net<Mass<3>> {
     /// Value and derivatives by `u`, `v`, `uu`, `uv` and `vv` at shares of the way.
     pub(super) fn six(&self, [s, t]: [f64; 2]) -> [Mass<3>; 6] {
         let [p, q] = self.counts;
-        let mut rows = [[[0.0; 4]; 3]; INLINE + 1];
+        let mut rows = [[[0.0; 4]; 3]; MAX_DEGREE_ON_STACK + 1];
         let mut many;
-        let rows: &mut [[Four; 3]] = if p <= INLINE + 1 {
+        let rows: &mut [[Four; 3]] = if p <= MAX_DEGREE_ON_STACK + 1 {
             &mut rows[..p]
         } else {
             many = vec![[[0.0; 4]; 3]; p];
@@ -213,9 +213,9 @@ impl Net<Mass<3>> {
 /// Value, first and second derivative of a polynomial by its `n` coefficients.
 #[inline]
 fn three(coefficients: impl Iterator<Item = Four>, n: usize, t: f64) -> [Four; 3] {
-    let mut own = [[0.0; 4]; INLINE + 1];
+    let mut own = [[0.0; 4]; MAX_DEGREE_ON_STACK + 1];
     let mut many;
-    let own: &mut [Four] = if n <= INLINE + 1 {
+    let own: &mut [Four] = if n <= MAX_DEGREE_ON_STACK + 1 {
         &mut own[..n]
     } else {
         many = vec![[0.0; 4]; n];

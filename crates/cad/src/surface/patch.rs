@@ -8,14 +8,12 @@
 //! that there is one foot, or none ([`super::convex`]).
 
 use super::bends::Bends;
-use super::convex::{Convexity, Minima};
+use super::convex::{Convexity, Minima, PRODUCT_ROUNDING};
 use super::net::{Net, one_sign};
 use trueness_geom::space::{Aabb, Point, Vector, dot, minus, norm, unit};
 use trueness_geom::spline::surface::Jet;
 use trueness_geom::spline::value::{Mass, Value};
 
-/// Roundings of a coefficient as a share of the greatest: it is the sum of some dozens of products.
-const NOISE: f64 = 256.0 * f64::EPSILON;
 /// Halvings of a part at most; by then it is as short as a rounding of its parameters.
 const DEPTH: u32 = 90;
 /// Parts looked at for one point at most.
@@ -119,7 +117,7 @@ impl Patch {
         let square = about.product(&about, |a, b| dot(a.moment, b.moment));
         let masses = about.map(|m| m.mass);
         let weights = masses.product(&masses, |a, b| a * b);
-        let lost = NOISE * square.greatest();
+        let lost = PRODUCT_ROUNDING * square.greatest();
         // Most pieces are done away with at once: the slopes cost more.
         let reach = (limit - epsilon).max(0.0);
         let is_beyond = |(s, w): (&f64, &f64)| *s > reach * reach * w + lost;

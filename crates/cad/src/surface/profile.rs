@@ -30,7 +30,7 @@ const FLAT: f64 = 1e-13;
 /// Share within which it was meant to: files have some seven digits and more. A descent corrects what the plane is off.
 const NEARLY_FLAT: f64 = 1e-5;
 /// Share of size and distance up to which the distance in the plane is that in space.
-const ROUNDED: f64 = 1e-12;
+const ROUNDED_DISTANCE_SHARE: f64 = 1e-12;
 /// Places at which each piece of a curve is tried that does not lie in a plane with the axis.
 const PLACES_OF_PIECE: usize = 32;
 /// How far beyond the point's height an infinite curve is tried, in distances from the axis.
@@ -66,7 +66,9 @@ impl Profile {
             let angle = if rho > 0.0 { libm::atan2(side * y, side * x) } else { 0.0 };
             let turned = plus(self.origin, plus(times(height, self.axis), times(side * rho, self.way)));
             self.feet.candidates(turned, limit + 2.0 * self.off, |foot| {
-                if foot.distance > limit + 2.0 * self.off + ROUNDED * (self.scale + foot.distance) {
+                if foot.distance
+                    > limit + 2.0 * self.off + ROUNDED_DISTANCE_SHARE * (self.scale + foot.distance)
+                {
                     return limit + 2.0 * self.off;
                 }
                 let start = [angle, foot.parameter];

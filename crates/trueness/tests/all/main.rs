@@ -2,6 +2,7 @@
 #![allow(clippy::disallowed_methods, clippy::panic, clippy::unwrap_used, reason = "a test may stop")]
 
 mod cad_faces;
+mod common;
 mod incomplete_models;
 mod inputs_are_kept;
 mod named_paths;

@@ -1,5 +1,6 @@
 //! Curvatures asked by JSON, of a file and of memory.
 
+use crate::common::{is_read_back, refuses_what_it_lacks};
 use serde_json::json;
 use trueness::files::{FileSources, MemorySources};
 use trueness::geom::progress::Silent;
@@ -28,15 +29,12 @@ fn memory_gives_the_document_of_the_file() {
 
 #[test]
 fn a_request_is_read_back_as_it_was_written() {
-    let text = serde_json::to_string(&request()).unwrap();
-    assert_eq!(serde_json::from_str::<CurvatureRequest>(&text).unwrap(), request());
+    is_read_back(&request());
 }
 
 #[test]
 fn an_unknown_field_is_refused_by_its_name() {
-    let said =
-        serde_json::from_value::<CurvatureRequest>(json!({ "input": INPUT, "tolerances": 1 })).unwrap_err();
-    assert!(said.to_string().contains("tolerances"), "{said}");
+    refuses_what_it_lacks::<CurvatureRequest>(json!({ "input": INPUT }));
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Sections asked by JSON, of files and of memory.
 
+use crate::common::{is_read_back, refuses_what_it_lacks};
 use serde_json::json;
 use trueness::document::ResultDocument;
 use trueness::files::{FileSources, MemorySources};
@@ -56,14 +57,12 @@ fn memory_gives_the_document_of_the_files() {
 #[test]
 fn a_request_is_read_back_as_it_was_written() {
     let request = SectionRequest { fit: Some(Fit::None), interval: Interval::Paper, ..request() };
-    let text = serde_json::to_string(&request).unwrap();
-    assert_eq!(serde_json::from_str::<SectionRequest>(&text).unwrap(), request);
+    is_read_back(&request);
 }
 
 #[test]
 fn an_unknown_field_is_refused_by_its_name() {
-    let said = serde_json::from_value::<SectionRequest>(json!({ "input": PART, "plain": 1 })).unwrap_err();
-    assert!(said.to_string().contains("plain"), "{said}");
+    refuses_what_it_lacks::<SectionRequest>(json!({ "input": PART }));
 }
 
 /// What the words of a command line cannot say together, JSON can.

@@ -11,11 +11,11 @@ use trueness_geom::spline::rational::Rational;
 use trueness_geom::spline::surface::Nurbs;
 
 /// Kinds of surfaces in the family.
-const KINDS: u64 = 11;
+const SURFACE_KINDS: u64 = 11;
 /// Places of the grid along a parameter.
-const GRID: usize = 36;
+const PLACES_ALONG: usize = 36;
 /// Share of the size by which an answer may be farther.
-const SAME: f64 = 1e-9;
+const FARTHER_SHARE: f64 = 1e-9;
 
 fn between(random: &mut Random, from: f64, to: f64) -> f64 {
     from + (to - from) * random.unit()
@@ -140,9 +140,10 @@ impl<'a> Grids<'a> {
         let grid = |trim: &Trim| {
             let at = |k: usize, i: usize| {
                 let [from, to] = trim.window[k];
-                from + (to - from) * i as f64 / (GRID - 1) as f64
+                from + (to - from) * i as f64 / (PLACES_ALONG - 1) as f64
             };
-            let all = (0..GRID * GRID).map(|n| [at(0, n / GRID), at(1, n % GRID)]);
+            let all =
+                (0..PLACES_ALONG * PLACES_ALONG).map(|n| [at(0, n / PLACES_ALONG), at(1, n % PLACES_ALONG)]);
             all.map(|at| (at, trim.chart.surface().at(at[0], at[1]))).collect()
         };
         Grids { brep, trims, grids: trims.iter().map(grid).collect() }
@@ -155,10 +156,11 @@ impl<'a> Grids<'a> {
             let square = |n: usize| dot(minus(grid[n].1, *p), minus(grid[n].1, *p));
             let squares: Vec<f64> = (0..grid.len()).map(square).collect();
             for (n, own) in squares.iter().enumerate() {
-                let [i, j] = [n / GRID, n % GRID];
-                let rows = i.saturating_sub(1)..=(i + 1).min(GRID - 1);
-                let mut around = rows
-                    .flat_map(|a| (j.saturating_sub(1)..=(j + 1).min(GRID - 1)).map(move |b| a * GRID + b));
+                let [i, j] = [n / PLACES_ALONG, n % PLACES_ALONG];
+                let rows = i.saturating_sub(1)..=(i + 1).min(PLACES_ALONG - 1);
+                let mut around = rows.flat_map(|a| {
+                    (j.saturating_sub(1)..=(j + 1).min(PLACES_ALONG - 1)).map(move |b| a * PLACES_ALONG + b)
+                });
                 if around.any(|m| squares[m] < *own) {
                     continue;
                 }
@@ -176,10 +178,10 @@ impl<'a> Grids<'a> {
         for edge in &self.brep.edges {
             let [from, to] = edge.span.range;
             let place = |i: usize| {
-                let t = from + (to - from) * i as f64 / (3 * GRID) as f64;
+                let t = from + (to - from) * i as f64 / (3 * PLACES_ALONG) as f64;
                 (norm(minus(edge.span.curve.at(t), *p)), t)
             };
-            let all: Vec<(f64, f64)> = (0..=3 * GRID).map(place).collect();
+            let all: Vec<(f64, f64)> = (0..=3 * PLACES_ALONG).map(place).collect();
             for w in 0..all.len() {
                 let (low, high) = (w.saturating_sub(1), (w + 1).min(all.len() - 1));
                 if all[low].0 >= all[w].0 && all[high].0 >= all[w].0 {
@@ -225,7 +227,7 @@ fn farther(seed: u64, models: u64, points: usize) -> (usize, usize, f64) {
         let mut random = Random::stream(seed, model);
         let mut brep = Brep::default();
         for _ in 0..1 + random.below(3) {
-            let kind = random.below(KINDS);
+            let kind = random.below(SURFACE_KINDS);
             let (surface, window) = surface(&mut random, kind);
             add(&mut brep, surface, window);
         }
@@ -240,7 +242,7 @@ fn farther(seed: u64, models: u64, points: usize) -> (usize, usize, f64) {
             let other = grids.distance(&p);
             asked += 1;
             // Edges are off their surfaces by the rounding of both.
-            if own.distance > other + SAME * (4.0 + norm(p)) {
+            if own.distance > other + FARTHER_SHARE * (4.0 + norm(p)) {
                 wrong += 1;
                 most = most.max(own.distance - other);
             }

@@ -7,7 +7,8 @@ use std::collections::BTreeMap;
 /// The record of a relationship that has a transformation.
 pub(super) const TRANSFORMED: &str = "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION";
 /// Relationships of representations without one.
-const PLAIN: [&str; 2] = ["SHAPE_REPRESENTATION_RELATIONSHIP", "REPRESENTATION_RELATIONSHIP"];
+const WITHOUT_TRANSFORMATION: [&str; 2] =
+    ["SHAPE_REPRESENTATION_RELATIONSHIP", "REPRESENTATION_RELATIONSHIP"];
 
 /// Numbers that belong together.
 #[derive(Default)]
@@ -46,7 +47,7 @@ impl Groups {
                         self.index(product);
                     }
                 }
-                keyword if PLAIN.contains(&keyword) && is_plain(entity) => {
+                keyword if WITHOUT_TRANSFORMATION.contains(&keyword) && is_plain(entity) => {
                     if let (Some(a), Some(b)) = (record.reference(2), record.reference(3))
                         && [a, b].iter().all(|r| representations.contains_key(r))
                     {
@@ -91,5 +92,5 @@ impl Groups {
 /// Whether a relationship says no more than that two representations share their coordinates. What a record that is not known says of
 /// them may move one of them.
 pub(super) fn is_plain(entity: &Entity) -> bool {
-    entity.records().all(|r| PLAIN.contains(&r.keyword))
+    entity.records().all(|r| WITHOUT_TRANSFORMATION.contains(&r.keyword))
 }
